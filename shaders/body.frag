@@ -1,7 +1,7 @@
 // Cloth and solids under a key light with a shadow, a fill light, the sky and light reflected by the ground.
 // TORN: the colour of torn edges, linear. FRONT, BACK: pictures take the place of the colours of either side;
 // CUT_OUT: that of the front has holes. Their texels are decoded already, and multiplied by alpha
-// (render/draw/uploaded_textures.h).
+// (render/draw/uploaded_textures.h). ROUGHNESS: a picture says how rough the surface is.
 in vec4 to_eye; // see body.vert
 in vec4 across;
 in vec4 albedo;
@@ -12,9 +12,14 @@ flat in vec4 far_side;
 flat in vec3 squares;
 
 uniform sampler2DShadow shadow;
-#if FRONT
+#if FRONT || ROUGHNESS
 in vec2 on_front;
+#endif
+#if FRONT
 uniform sampler2D front;
+#endif
+#if ROUGHNESS
+uniform sampler2D roughness;
 #endif
 #if BACK
 in vec2 on_back;
@@ -27,8 +32,8 @@ float tap(float x, float y) {
   return texture(shadow, vec3(in_shadow.xy + SHADOW_SPREAD * vec2(x, y), in_shadow.z));
 }
 
-// Eight taps, each filtered over four texels by the hardware, where eight queens stand on a chessboard: seen
-// along its sides or diagonals, no two are behind each other, so that an edge of a shadow falls in even steps.
+// Eight taps, each filtered over four texels by the hardware: one in each row and each column of a grid of
+// 8 x 8, so that the edge of a shadow along x or y falls in eight even steps.
 float lit() {
   return 0.125 * (tap(-1.0, -0.714) + tap(-0.714, 0.143) + tap(-0.429, 1.0) + tap(-0.143, 0.429) +
                   tap(0.143, -0.429) + tap(0.429, 0.714) + tap(0.714, -1.0) + tap(1.0, -0.143));
@@ -45,6 +50,17 @@ vec2 lines() {
   vec3 cover = clamp(reach.xyz - weight * height, 0.0, 1.0);
   cover *= clamp(slope.xyz * height + start.xyz, 0.0, 1.0) * ink.xyz;
   return vec2(max(max(cover.x, cover.y), max(cover.z, 0.0)), -min(min(cover.x, cover.y), min(cover.z, 0.0)));
+}
+
+// The power of the cosine `sheen` for the finish alone.
+float highlight(float sheen) {
+  if (squares.x > 0.5) sheen *= sheen;
+  float squared = sheen * sheen;
+  if (squares.y > 0.5) sheen = squared * squared;
+  squared = sheen * sheen;
+  squared *= squared;
+  squared *= squared;
+  return squares.z > 0.5 ? squared * squared : sheen;
 }
 
 void main() {
@@ -91,13 +107,16 @@ void main() {
   float sheen = max(2.0 * to_viewer * to_key - near * to_eye.w, 0.0); // towards the reflected key light
   // The lamp itself, seen in what is glazed: a bright spot with an edge.
   vec3 shine = vec3(gloss * gloss * clamp(40.0 * sheen - 38.4, 0.0, 0.6));
-  if (squares.x > 0.5) sheen *= sheen;
-  float squared = sheen * sheen;
-  if (squares.y > 0.5) sheen = squared * squared;
-  squared = sheen * sheen;
-  squared *= squared;
-  squared *= squared;
-  if (squares.z > 0.5) sheen = squared * squared;
+#if ROUGHNESS // finish.h
+  float least = 2.0 / ((1.0 + squares.x) * (1.0 + 3.0 * squares.y) * (1.0 + 15.0 * squares.z) + 2.0);
+  float wide = mix(sqrt(least), 0.8, texture(roughness, on_front).r);
+  wide *= wide;
+  float fainter = least / wide;
+  shine *= fainter * fainter;
+  sheen = fainter * exp2((2.0 / wide - 2.0) * log2(max(sheen, 1e-6)));
+#else
+  sheen = highlight(sheen);
+#endif
   shine = (shine + gloss * sheen) * direct + (0.4 * rim_light * rim * up) * vec3(0.9, 0.95, 1.0);
   pixel = vec4(encode(surface * (light + rim * rim_light * up) + shine * (1.0 - line.x)), 1.0);
 #endif

@@ -7,7 +7,7 @@ layout(location = 0) in vec3 position; // [m]
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;   // sRGB
 layout(location = 3) in uvec4 line;    // [k]: kind of line along the side opposite to corner k
-#if FRONT || BACK
+#if FRONT || BACK || ROUGHNESS
 layout(location = 4) in vec2 place;    // in the picture
 #endif
 
@@ -35,7 +35,7 @@ out vec2 turned;    // dot products of the normal with sky and fill
 flat out vec4 reach, slope, start, ink;
 flat out vec4 far_side; // linear; w: far_colour.w
 flat out vec3 squares;  // sheen
-#if FRONT
+#if FRONT || ROUGHNESS
 out vec2 on_front;
 #endif
 #if BACK
@@ -73,7 +73,7 @@ void main() {
   ink = vec4(parts[3], finish.w);
   far_side = vec4(decode(far_colour.rgb), far_colour.w);
   squares = sheen;
-#if FRONT
+#if FRONT || ROUGHNESS
   on_front = place;
 #endif
 #if BACK // seen from behind it reads from left to right

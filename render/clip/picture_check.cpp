@@ -2,6 +2,7 @@
 
 #include "render/draw/camera.h"
 #include "render/picture/texture_file.h"
+#include "sim/base/wording.h"
 #include "sim/export/skin.h"
 #include "sim/topology/count.h"
 
@@ -92,7 +93,10 @@ public:
   }
 
 private:
-  bool has_eye() const { return picture_.camera.eye || !picture_.camera.keys.empty(); }
+  bool has_eye() const {
+    const CameraSettings& camera = picture_.camera;
+    return camera.fit.empty() && (camera.eye || !camera.keys.empty());
+  }
 
   // The first solid that encloses the eye.
   std::optional<std::size_t> around(const Vec3& eye) {
@@ -189,23 +193,59 @@ private:
   std::vector<std::string> notes_;
 };
 
+// The rim of a thick sheet is made for flat triangles; exploded cells and darts are polyhedra as they are.
+void check_curves(const LookSettings& look) {
+  if (look.smooth == 1) return;
+  if (look.thickness)
+    look.source.fail("smooth",
+                     "smooth cannot be used together with thickness: the rim of a sheet has flat sides",
+                     "leave out one of them");
+  if (look.as == DrawStyle::Darts || look.as == DrawStyle::Exploded)
+    look.source.fail("smooth",
+                     fmt::format("smooth has no use on a body that is shown as=\"{}\", cell by cell",
+                                 look.as == DrawStyle::Darts ? "darts" : "exploded"),
+                     "leave it out, or show the body as=\"surface\" or \"wires\"");
+}
+
+void check_fit(const CameraSettings& camera, const Scene& scene) {
+  if (camera.fit.empty() || camera.fit == fit_all) return;
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies()) names.push_back(body->name);
+  if (std::ranges::find(names, camera.fit) != names.end()) return;
+  names.emplace_back(fit_all);
+  camera.source.fail("fit", "there is no body " + in_quotes(camera.fit),
+                     suggestion(camera.fit, names, "there are"));
+}
+
 } // namespace
 
 void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock) {
+  check_fit(picture.camera, scene);
   Check(picture, scene, aspect, clock).check_camera();
 }
 
 void check_looks(const PictureSettings& picture, const Scene& scene) {
+  if (picture.image.floor_shadow && !scene.world().floor)
+    picture.image.source.fail("floor-shadow", "floor-shadow has no use in a scene without a floor",
+                              "add <floor z=\"0\"/>, or leave floor-shadow out");
   for (std::size_t n = 0; n < std::min(picture.looks.size(), scene.bodies().size()); ++n) {
     const SettingsSource& look = picture.looks[n].source;
     const Body& body = *scene.bodies()[n];
     const bool solid = body.map->map().dimension() == 3;
     check_textures(picture.looks[n], solid);
+    check_curves(picture.looks[n]);
     if (look.given("thickness") && (solid || picture.looks[n].as != DrawStyle::Surface))
       look.fail("thickness",
                 solid ? fmt::format("the body {} is a solid, whose thickness is that of its shape",
                                     in_quotes(body.name))
                       : std::string("thickness cannot be seen on a sheet that is not shown as=\"surface\""),
+                "leave it out");
+    if (!solid && look.given("finish-inside"))
+      look.fail("finish-inside",
+                fmt::format("the body {} is a sheet, which has no inside", in_quotes(body.name)),
+                "finish is that of both of its sides");
+    if (look.given("finish-inside") && picture.looks[n].as != DrawStyle::Surface)
+      look.fail("finish-inside", "finish-inside can be seen only on a body that is shown as=\"surface\"",
                 "leave it out");
     const char* wrong = solid ? "back" : "inside";
     if (!look.given(wrong)) continue;

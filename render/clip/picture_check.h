@@ -20,7 +20,8 @@ namespace rend {
 void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock);
 
 // UserError at a <look> that gives a sheet the colour of an inside, or a solid that of a back: neither has one;
-// for a thickness of what is not drawn as a sheet; and for pictures that cannot be shown (texture_file.h).
+// for a thickness of what is not drawn as a sheet; for curves of what has none; for pictures that cannot be
+// shown (texture_file.h); and for the shadow of a floor that is not there.
 void check_looks(const PictureSettings& picture, const Scene& scene);
 
 // What is to be told to who makes pictures. aspect: width / height.

@@ -1,4 +1,11 @@
 // Surface finishes: parameters of the body shader, under names of materials. One entry each in finishes().
+//
+// The highlight is that of Blinn and Phong, the cosine to the power n = 2^sharpness, as of a surface whose
+// facets have the roughness a: n = 2/a² - 2. Where a picture says how rough a surface is, from 0 (its finish's)
+// to 1 (a = 0.8), a is between the two, and the highlight as much fainter as it is wider: a_finish²/a².
+//
+// Source: Walter, Marschner, Li and Torrance, Microfacet models for refraction through rough surfaces, 2007 (n
+// and a).
 #pragma once
 
 #include <string>

@@ -67,8 +67,10 @@ struct FrameTexture {
   std::shared_ptr<const Texture> front, back; // null: plain; back: of a sheet
   Wrap wrap = Wrap::Repeat;
   float back_height = 1; // v - 1/2 in `back`, over that in `front`: pictures of other proportions are as wide
+  // How rough the surface is, 0 to 1, on both sides of a sheet (finish.h); null: as its finish
+  std::shared_ptr<const Texture> roughness = {};
 
-  bool any() const { return front || back; }
+  bool any() const { return front || back || roughness; }
 };
 
 // Which sides of a sheet are drawn: the front is that of the normals.
@@ -129,7 +131,9 @@ struct Frame {
   bool floor_shadow = false; // of a transparent one: the floor is there, but only its shadows are seen
   bool occlusion = false;    // draw with ambient occlusion
 
-  bool has_floor() const { return floor && (!transparent || floor_shadow); } // that is seen, or its shadows
+  bool has_floor() const {
+    return floor && (!transparent || floor_shadow);
+  }               // the floor, or only its shadows, are drawn
   HudContent hud; // drawn over the picture; empty: nothing
   // Motion blur: the picture is the mean of those at these moments, in linear light. They take the place of
   // bodies, obstacles and camera. Empty: a plain picture.

@@ -299,15 +299,20 @@ void Renderer::draw_bodies(const Frame& frame, const View& view, const Lights& l
 const GlProgram& Renderer::body_program(const FrameBody& body) {
   const auto& torn = body.torn.colour;
   const FrameTexture& texture = body.texture;
-  const BodyKind kind{body.filled, torn, texture.front != nullptr, texture.back != nullptr,
-                      texture.front && texture.front->cut_out};
+  const BodyKind kind{body.filled,
+                      torn,
+                      texture.front != nullptr,
+                      texture.back != nullptr,
+                      texture.front && texture.front->cut_out,
+                      body.filled && texture.roughness};
   if (const auto at = body_programs_.find(kind); at != body_programs_.end()) return at->second;
   return body_programs_
-      .try_emplace(kind, "body.vert", "body.frag",
-                   fmt::format("#define WIRES {:d}\n#define SHADOW_SPREAD {}\n#define TORN vec3({}, {}, {})\n"
-                               "#define FRONT {:d}\n#define BACK {:d}\n#define CUT_OUT {:d}\n",
-                               !kind.filled, shadow_spread / shadow_side, torn[0], torn[1], torn[2], kind.front,
-                               kind.back, kind.cut_out))
+      .try_emplace(
+          kind, "body.vert", "body.frag",
+          fmt::format("#define WIRES {:d}\n#define SHADOW_SPREAD {}\n#define TORN vec3({}, {}, {})\n"
+                      "#define FRONT {:d}\n#define BACK {:d}\n#define CUT_OUT {:d}\n#define ROUGHNESS {:d}\n",
+                      !kind.filled, shadow_spread / shadow_side, torn[0], torn[1], torn[2], kind.front,
+                      kind.back, kind.cut_out, kind.roughness))
       .first->second;
 }
 
@@ -341,10 +346,12 @@ void Renderer::set_finish(const GlProgram& program, const FrameBody& body) {
   program.set("sheen", Eigen::Vector3f(bit(0), bit(1), bit(2)));
 }
 
-void Renderer::set_texture(const GlProgram& program, const FrameTexture& texture) const {
+void Renderer::set_texture(const GlProgram& program, const FrameBody& body) const {
+  const FrameTexture& texture = body.texture;
   if (!texture.any()) return;
   textures_.bind(texture);
   if (texture.front) program.set("front", UploadedTextures::front_unit);
+  if (body.filled && texture.roughness) program.set("roughness", UploadedTextures::roughness_unit);
   if (!texture.back) return;
   program.set("back", UploadedTextures::back_unit);
   program.set("back_height", texture.back_height);
@@ -363,7 +370,7 @@ void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
     back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
   }
   if (!body.texture.back) program.set("far_colour", back);
-  set_texture(program, body.texture);
+  set_texture(program, body);
   const bool culled = (!body.two_sided || body.sides != SheetSides::Both) && body.filled;
   glCullFace(body.sides == SheetSides::Back ? GL_FRONT : GL_BACK);
   (culled ? glEnable : glDisable)(GL_CULL_FACE);

@@ -63,6 +63,7 @@ private:
     std::array<float, 3>
         torn; // the colour of torn edges: a uniform would cost every fragment (shaders/body.vert)
     bool front, back, cut_out; // has pictures, and one with holes
+    bool roughness;            // has a picture of that
     auto operator<=>(const BodyKind&) const = default;
   };
 
@@ -87,7 +88,7 @@ private:
   void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
-  void set_texture(const GlProgram& program, const FrameTexture& texture) const;
+  void set_texture(const GlProgram& program, const FrameBody& body) const;
   void draw_body(const GlProgram& program, const Draw& draw) const;
   BodyTargets body_targets(const PixelRect& covered) const;
   void occlude(const Frame& frame, const View& view, const BodyTargets& bodies);

@@ -77,6 +77,10 @@ private:
 
 void append(TextureLevel& level, const LightRow& row) {
   for (const Light& light : row) {
+    if (level.channels == 1) {
+      level.texels.push_back(static_cast<std::uint8_t>(light[0] / 257 + 0.5));
+      continue;
+    }
     const double alpha = light[3] / full_light;
     for (std::size_t c = 0; c < 3; ++c) {
       const double own = alpha > 0 ? std::min(light[c] / alpha, full_light) : 0;
@@ -89,6 +93,10 @@ void append(TextureLevel& level, const LightRow& row) {
 void read_row(const TextureLevel& level, int y, LightRow& row) {
   const std::uint8_t* texel = level.texels.data() + level.stride() * static_cast<std::size_t>(y);
   for (Light& light : row) {
+    if (level.channels == 1) {
+      light = {257.0 * *texel++, 0, 0, full_light};
+      continue;
+    }
     const int alpha = level.channels == 4 ? texel[3] : 255;
     for (std::size_t c = 0; c < 3; ++c) light[c] = light_of_level(texel[c]) * (alpha / 255.0);
     light[3] = 257.0 * alpha;
@@ -150,8 +158,27 @@ bool is_transparent(const Image& image) {
   return false;
 }
 
-std::shared_ptr<const Texture> make_texture(Image image) {
+namespace {
+
+void check_size(const Image& image) {
   CHECK(image.width >= 1 && image.height >= 1 && std::max(image.width, image.height) <= largest_texture);
+}
+
+} // namespace
+
+std::shared_ptr<const Texture> make_number_texture(const Image& image) {
+  check_size(image);
+  TextureLevel first{image.width, image.height, 1, {}};
+  first.texels.reserve(first.stride() * static_cast<std::size_t>(first.height));
+  for (int y = image.height - 1; y >= 0; --y)
+    for (int x = 0; x < image.width; ++x) first.texels.push_back(image.at(x, y)[1]);
+  auto texture = std::make_shared<Texture>();
+  texture->levels = levels_from(std::move(first));
+  return texture;
+}
+
+std::shared_ptr<const Texture> make_texture(Image image) {
+  check_size(image);
   auto texture = std::make_shared<Texture>();
   texture->cut_out = is_transparent(image);
   texture->levels = levels_from(first_level(std::move(image), texture->cut_out));

@@ -18,6 +18,9 @@ std::uint32_t light_of_number(std::size_t number) {
 }
 
 void upload(GLint number, const TextureLevel& level) {
+  if (level.channels == 1)
+    return glTexImage2D(GL_TEXTURE_2D, number, GL_R8, level.width, level.height, 0, GL_RED, GL_UNSIGNED_BYTE,
+                        level.texels.data());
   glTexImage2D(GL_TEXTURE_2D, number, GL_RGBA16, level.width, level.height, 0, GL_RGBA, GL_UNSIGNED_SHORT,
                nullptr);
   std::vector<std::uint16_t> row(std::size_t{4} * static_cast<std::size_t>(level.width));
@@ -38,7 +41,7 @@ void upload(GLint number, const TextureLevel& level) {
 void UploadedTextures::take_those_of(const Frame& frame, std::span<const TexturePoint> places) {
   std::set<std::shared_ptr<const Texture>> used;
   for (const FrameBody& body : frame.bodies)
-    for (const auto& texture : {body.texture.front, body.texture.back})
+    for (const auto& texture : {body.texture.front, body.texture.back, body.texture.roughness})
       if (texture) used.insert(texture);
   holes_ = std::ranges::any_of(used, [](const auto& texture) { return texture->cut_out; });
   if (holes_ && !opaque_)
@@ -79,6 +82,7 @@ void UploadedTextures::take(const std::shared_ptr<const Texture>& texture) {
 void UploadedTextures::bind(const FrameTexture& texture) const {
   if (texture.front) bind(front_unit, *texture.front, texture.wrap);
   if (texture.back) bind(back_unit, *texture.back, texture.wrap);
+  if (texture.roughness) bind(roughness_unit, *texture.roughness, texture.wrap);
 }
 
 void UploadedTextures::bind_holes(const FrameTexture& texture) const {

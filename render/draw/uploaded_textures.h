@@ -22,14 +22,14 @@ namespace rend {
 class UploadedTextures {
 public:
   // Texture units: 0 to 2 are those of shadows.
-  static constexpr int front_unit = 3, back_unit = 4;
+  static constexpr int front_unit = 3, back_unit = 4, roughness_unit = 5;
 
   // places: one per corner of the vertex array that is bound; empty: nothing has a picture.
   // UserError (OutOfBudget) if there is not enough memory.
   void take_those_of(const Frame& frame, std::span<const TexturePoint> places);
   bool holes() const { return holes_; } // in something of that frame
 
-  // To be sampled by the program in use, as `front` and `back`. CHECK: it was taken.
+  // To be sampled by the program in use, as `front`, `back` and `roughness`. CHECK: it was taken.
   void bind(const FrameTexture& texture) const;
   // Its front where that has holes, elsewhere one without, as `front`. CHECK: something in the frame has holes.
   void bind_holes(const FrameTexture& texture) const;

@@ -8,8 +8,8 @@ namespace {
 // A colour, or the word for no line.
 Field<LookSettings> torn() {
   return {text("torn",
-               "of a sheet: colour of the line along torn edges, #rrggbb, or none for no line; default: "
-               "none, but orange with edges=\"yes\" if anything but change=\"cut\" tears the body"),
+               "of a sheet: colour of the line along torn edges, #rrggbb, or none for no line; default: orange "
+               "where edges are drawn, unless only change=\"cut\" tears the body; else none"),
           [](LookSettings& look, const AttributeValue& value) {
             look.torn_edges = value.text != "none";
             look.torn = *look.torn_edges ? colour_called(value.text) : std::nullopt;
@@ -24,6 +24,13 @@ Field<LookSettings> finish() {
   return {type,
           [](LookSettings& look, const AttributeValue& value) { look.finish = finish_called(value.text); },
           [](const LookSettings&, const SettingsSource&) {}};
+}
+
+Field<LookSettings> finish_inside() {
+  return {
+      text("finish-inside", "that of the faces of a solid that fracture exposes; default: the body's finish"),
+      [](LookSettings& look, const AttributeValue& value) { look.finish_inside = finish_called(value.text); },
+      [](const LookSettings&, const SettingsSource&) {}};
 }
 
 // `scale` is what it is of <place>: a factor of the size.
@@ -47,6 +54,13 @@ Fields<LookSettings> texture_fields() {
                                  "left to right as well")),
       field(&S::texture_inside,
             text("texture-inside", "picture on the faces of a solid that fracture exposes, likewise")),
+      field(&S::roughness,
+            text("roughness",
+                 "picture of how rough the surface is, in place of one gloss all over: black as the "
+                 "finish has it, white rough; of coloured pictures the green channel. It lies as the "
+                 "texture does, on both sides of a sheet")),
+      field(&S::roughness_inside,
+            text("roughness-inside", "likewise, on the faces of a solid that fracture exposes")),
       field(&S::wrap,
             word("wrap", {"repeat", "clamp", "mirror"},
                  "how a picture goes on beyond its sides; default: clamp where it is spread over a sheet "
@@ -81,8 +95,8 @@ template <> const Fields<LookSettings>& fields_of() {
                              "the clip so far, rounded up")
                           .above(0)),
       field(&S::edges, flag("edges", "whether the edges of cells are drawn, and the mesh is shaded as it is; "
-                                     "default: no, but yes for wires and exploded. Without them a sheet is "
-                                     "shaded as the smooth surface that its mesh stands for")),
+                                     "default: yes for wires and exploded, else no, and a sheet is then shaded "
+                                     "smoothly")),
       torn(),
       field(&S::torn_width, number("torn-width", "",
                                    "width of that line, where there is one: pixels in a picture of height 720; "
@@ -99,17 +113,21 @@ template <> const Fields<LookSettings>& fields_of() {
                 .at_most(10)),
       field(
           &S::thickness,
-          number("thickness", "m",
-                 "of a sheet, as it is drawn: it gets a rim, round where it is whole, rough and lighter where "
-                 "it is torn (torn: in that colour), and no lines along edges; default: none")
+          number(
+              "thickness", "m",
+              "of a sheet, as it is drawn: it gets a rim, round where it is whole, rough and lighter where "
+              "it is torn (torn: in that colour), and no lines along edges; default: that of <mass>, where it "
+              "is at least a 300th of the sheet's size, else none")
               .above(0)
               .at_most(1)),
       field(&S::smooth,
-            integer("smooth", "draws curved triangles, each side in so many parts, so that outlines are no "
-                              "polygons: 2 to 4 where cells are large; torn and sharp edges stay straight")
+            integer("smooth",
+                    "draws each triangle as a curved surface, each side divided into so many parts: with "
+                    "2 to 4 the outline of a coarse mesh looks round; torn and sharp edges stay straight")
                 .at_least(1)
                 .at_most(8)),
-      finish()};
+      finish(),
+      finish_inside()};
   static const Fields<S> fields = plain + texture_fields();
   return fields;
 }

@@ -56,17 +56,52 @@ template <class F> void for_each_corner_from_front(const EmbeddedMap& map, Slot 
   } while (at != start);
 }
 
+// The share of its largest extent from which on a sheet looks like a slab: two pixels of a picture that is 640
+// wide.
+constexpr double visible_thickness = 1.0 / 300;
+
+// Whether a sheet that says nothing of it is drawn with the thickness of its mass. What asks for lines along
+// edges gets these.
+bool shows_thickness_of_mass(const Body& body, const LookSettings& look, const LookTextures& textures) {
+  const bool drawn = body.map->dimension() == 2 && look.as == DrawStyle::Surface && look.smooth == 1;
+  const bool lines = look.torn_edges.value_or(draws_edges(look)) || look.source.given("torn-width");
+  const bool holes = textures.front && textures.front->cut_out;
+  if (look.thickness || !look.mass_thickness || !drawn || holes || lines) return false;
+  Eigen::AlignedBox3d rest;
+  const CellIndex& cells = body.map->cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v)) rest.extend(body.map->rest()[v].vec());
+  return !rest.isEmpty() && *look.mass_thickness >= visible_thickness * rest.sizes().maxCoeff();
+}
+
+// More triangles than any picture shows.
+void check_parts(Body& body, const LookSettings& look) {
+  constexpr double most = 2e7;
+  if (look.smooth == 1) return;
+  Boundary& boundary = body.boundary();
+  const bool solid = body.map->dimension() == 3;
+  const auto triangles =
+      static_cast<double>(solid ? boundary.solid().triangles() : boundary.sheet().triangles());
+  if (const double parts = triangles * look.smooth * look.smooth; parts > most)
+    look.source.fail(
+        "smooth",
+        fmt::format("the body has {:.0f} triangles; divided they are {:.0f}, and {:.0f} is the most", triangles,
+                    parts, most),
+        "its cells are small enough to be drawn as they are: leave smooth out");
+}
+
 } // namespace
 
 BodyPicture::BodyPicture(Body& body, LookSettings look, LookTextures textures)
     : body_(&body), look_(std::move(look)), solid_(body.map->dimension() == 3),
       orientable_(solid_ || is_orientable(body.map->map())), scale_(look_.most.value_or(0)) {
+  if (shows_thickness_of_mass(body, look_, textures)) look_.thickness = look_.mass_thickness;
   const bool has_sides = look_.as == DrawStyle::Surface || look_.as == DrawStyle::Wires;
   if (look_.by == ColourBy::Plain && has_sides) textures_ = std::move(textures);
-  if (const auto& sides = textures_.front ? textures_.front : textures_.back)
-    map_.emplace(body, look_, sides->aspect());
-  if (textures_.inside) inside_map_.emplace(body, look_, textures_.inside->aspect());
+  if (const Texture* outside = textures_.leading()) map_.emplace(body, look_, outside->aspect());
+  if (const Texture* inside = textures_.leading_inside()) inside_map_.emplace(body, look_, inside->aspect());
   if (!solid_) body.boundary().sheet(); // that of a solid is there
+  check_parts(body, look_);
   if (look_.as == DrawStyle::Darts && body.map->map().dart_count() > most_drawn_darts)
     look_.source.fail("as",
                       fmt::format("the body has {} darts; at most {} can be drawn",
@@ -155,11 +190,19 @@ void BodyPicture::draw_as_it_is(std::vector<FrameBody>& out) {
     draw_exploded(
         *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, body);
   else if (solid_)
-    draw_solid(body, map_ || inside_map_ ? Faces::Outer : Faces::All);
+    draw_solid(body, shows_inside_apart() ? Faces::Outer : Faces::All);
   else
     draw_thin_sheet(body);
   out.push_back(std::move(body));
-  if (solid_ && (map_ || inside_map_)) draw_solid(out.emplace_back(plain()), Faces::Exposed);
+  if (!solid_ || !shows_inside_apart()) return;
+  FrameBody& inside = out.emplace_back(plain());
+  inside.finish = look_.finish_inside.value_or(look_.finish);
+  draw_solid(inside, Faces::Exposed);
+}
+
+bool BodyPicture::shows_inside_apart() const {
+  const bool as_surface = look_.as == DrawStyle::Surface || look_.as == DrawStyle::Wires;
+  return map_ || inside_map_ || (look_.finish_inside && as_surface);
 }
 
 TornLine BodyPicture::torn_line() const {
@@ -245,7 +288,7 @@ void BodyPicture::draw_sheet(FrameBody& out, double raised) {
 
 void BodyPicture::lay_on_sheet(FrameBody& out) const {
   const bool behind = textures_.back && orientable_; // what has one side has no back
-  out.texture = {textures_.front, behind ? textures_.back : nullptr, wrap(*map_), 1};
+  out.texture = {textures_.front, behind ? textures_.back : nullptr, wrap(*map_), 1, textures_.roughness};
   if (!out.texture.any()) return;
   if (textures_.front && behind) // relative to the picture that the map is of
     out.texture.back_height =
@@ -304,9 +347,11 @@ void BodyPicture::draw_solid(FrameBody& out, Faces which) {
 
 // Face after face as draw_solid() goes through their triangles; those of one face are projected on one plane.
 void BodyPicture::lay_on_solid(FrameBody& out, Faces which) const {
-  const std::optional<TextureMap>& map = which == Faces::Exposed ? inside_map_ : map_;
+  const bool inside = which == Faces::Exposed;
+  const std::optional<TextureMap>& map = inside ? inside_map_ : map_;
   if (!map) return;
-  out.texture = {which == Faces::Exposed ? textures_.inside : textures_.front, nullptr, wrap(*map), 1};
+  out.texture = {inside ? textures_.inside : textures_.front, nullptr, wrap(*map), 1,
+                 inside ? textures_.roughness_inside : textures_.roughness};
   out.texture_points.reserve(out.corners.size());
   const auto& rest = body_->map->rest().values();
   std::vector<Vec3> ring; // of a face [m]

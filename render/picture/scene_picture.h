@@ -30,9 +30,9 @@ public:
   BodyPicture(Body& body, LookSettings look, LookTextures textures);
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that have a colour
-  // Appends the state that was observed to `out`: of a solid with textures its outside and what fracture
-  // exposes, one after the other, of a sheet with a thickness its front, its back and its rim; of any other
-  // body one.
+  // Appends the state that was observed to `out`: of a solid with textures or two finishes its outside and what
+  // fracture exposes, one after the other, of a sheet with a thickness its front, its back and its rim; of any
+  // other body one.
   void draw(std::vector<FrameBody>& out);
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const;               // of its surface
@@ -48,6 +48,7 @@ private:
   void draw_thick_sheet(std::vector<FrameBody>& out);
   Colour rim_colour(bool torn) const;
   void draw_solid(FrameBody& out, Faces which);
+  bool shows_inside_apart() const; // the faces that fracture exposes are a body of their own
   Wrap wrap(const TextureMap& map) const;
   // The places of what was drawn in its pictures.
   void lay_on_sheet(FrameBody& out) const;

@@ -5,6 +5,7 @@
 #include "sim/build/read_settings.h"
 #include "sim/build/rule_book.h"
 #include "sim/build/scene_types.h"
+#include "sim/mechanics/mass.h"
 
 #include <algorithm>
 
@@ -124,10 +125,13 @@ void check_look(const PresetNode& look) {
   colour_of(look, "inside");
   if (look.given("back")) colour_of(look, "back");
   if (look.given("torn") && look.text("torn") != "none") colour_of(look, "torn");
-  const std::string& finish = look.text("finish");
   const auto names = finish_names();
-  if (std::find(names.begin(), names.end(), finish) == names.end())
-    look.fail("finish", "there is no finish " + in_quotes(finish), suggestion(finish, names, "there are"));
+  for (const char* attribute : {"finish", "finish-inside"}) {
+    if (!look.given(attribute)) continue;
+    const std::string& finish = look.text(attribute);
+    if (std::find(names.begin(), names.end(), finish) == names.end())
+      look.fail(attribute, "there is no finish " + in_quotes(finish), suggestion(finish, names, "there are"));
+  }
 }
 
 // Colours by stress need elements, colours by force need springs, and so on.
@@ -200,7 +204,7 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
 
 bool has_texture(const PresetNode& body) {
   const PresetNode* look = body.child("look");
-  return look && (look->given("texture") || look->given("texture-back"));
+  return look && (look->given("texture") || look->given("texture-back") || look->given("roughness"));
 }
 
 PictureSettings picture_settings(const PresetNode& scene) {
@@ -212,6 +216,8 @@ PictureSettings picture_settings(const PresetNode& scene) {
     const PresetNode* look = body->child("look");
     settings.looks.push_back(look ? read_settings<LookSettings>(*look) : LookSettings{});
     settings.looks.back().frame = texture_frame(*body);
+    if (const PresetNode* mass = body->child("mass"))
+      settings.looks.back().mass_thickness = read_settings<MassSettings>(*mass).thickness;
     settings.looks.back().folder = std::filesystem::path(scene.place().file).parent_path();
   }
   if (const PresetNode* world = scene.child("world")) {

@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-constexpr const char* whole_file = "a texture is a PNG or JPEG file: save the picture as one, and whole";
+constexpr const char* whole_file = "save the picture again, as a complete PNG or JPEG file";
 
 std::filesystem::path path_of(const LookSettings& look, const std::string& file) {
   return (look.folder / file).lexically_normal();
@@ -65,6 +65,23 @@ void check_sides(const LookSettings& look, bool solid) {
   if (!solid && !look.texture_inside.empty())
     look.source.fail("texture-inside", "the body is a sheet, which has no inside",
                      "texture and texture-back are on its sides");
+  if (!solid && !look.roughness_inside.empty())
+    look.source.fail("roughness-inside", "the body is a sheet, which has no inside",
+                     "roughness is that of both of its sides");
+}
+
+// The first of the attributes that name a picture; null: there is none.
+const char* named_picture(const LookSettings& look) {
+  const auto first = [](const std::initializer_list<std::pair<const std::string*, const char*>>& all) {
+    for (const auto& [file, attribute] : all)
+      if (!file->empty()) return attribute;
+    return static_cast<const char*>(nullptr);
+  };
+  return first({{&look.texture, "texture"},
+                {&look.texture_back, "texture-back"},
+                {&look.texture_inside, "texture-inside"},
+                {&look.roughness, "roughness"},
+                {&look.roughness_inside, "roughness-inside"}});
 }
 
 void check_use(const LookSettings& look) {
@@ -72,22 +89,23 @@ void check_use(const LookSettings& look) {
   const auto& sheet = look.frame.sheet;
   const bool crosses =
       sheet && sheet->closure == SheetClosure::Twist && (*sheet->size)[1] * pi > (*sheet->size)[0];
-  const bool none = look.texture.empty() && look.texture_back.empty() && look.texture_inside.empty();
+  const char* named = named_picture(look);
   for (const char* attribute : {"wrap", "scale", "rotate"})
-    if (none && look.source.given(attribute))
+    if (!named && look.source.given(attribute))
       look.source.fail(attribute, fmt::format("{} of <look> has no use without a texture", attribute),
                        "name a picture: texture=\"picture.png\"");
-  const char* named = !look.texture.empty()        ? "texture"
-                      : !look.texture_back.empty() ? "texture-back"
-                                                   : "texture-inside";
-  if (!none && crosses)
+  if (named && crosses)
     look.source.fail(named, "a picture cannot lie on a twisted band that is this wide for its length",
                      "make it narrower than its length over pi");
-  if (!none && (look.as == DrawStyle::Exploded || look.as == DrawStyle::Darts))
+  if (named && (look.as == DrawStyle::Exploded || look.as == DrawStyle::Darts))
     look.source.fail(named,
                      fmt::format("{} cannot be seen on a body that is shown as=\"{}\"", named,
                                  look.as == DrawStyle::Darts ? "darts" : "exploded"),
                      "leave it out, or show the body as=\"surface\" or \"wires\"");
+  for (const char* attribute : {"roughness", "roughness-inside"})
+    if (look.as == DrawStyle::Wires && look.source.given(attribute))
+      look.source.fail(attribute, "lines have no gloss: roughness cannot be seen on a body shown as=\"wires\"",
+                       "leave it out, or show the body as=\"surface\"");
 }
 
 } // namespace
@@ -106,20 +124,27 @@ void check_textures(const LookSettings& look, bool solid) {
   check_holes(look, "texture-back", look.texture_back, "but holes of a sheet are those of its texture", opaque);
   check_holes(look, "texture-inside", look.texture_inside, "and a solid has nothing behind its surface",
               opaque);
+  for (const auto& [file, attribute] :
+       {std::pair(&look.roughness, "roughness"), std::pair(&look.roughness_inside, "roughness-inside")})
+    if (!file->empty()) image_of(look, attribute, *file);
 }
 
 std::shared_ptr<const Texture> TextureFiles::texture(const LookSettings& look, const std::string& attribute,
-                                                     const std::string& file) {
+                                                     const std::string& file, Use use) {
   if (file.empty()) return nullptr;
-  std::shared_ptr<const Texture>& texture = read_[path_of(look, file)];
-  if (!texture) texture = make_texture(image_of(look, attribute, file));
+  std::shared_ptr<const Texture>& texture = read_[{path_of(look, file), use}];
+  if (texture) return texture;
+  Image image = image_of(look, attribute, file);
+  texture = use == Use::Numbers ? make_number_texture(image) : make_texture(std::move(image));
   return texture;
 }
 
 LookTextures TextureFiles::of(const LookSettings& look) {
   if (look.by != ColourBy::Plain) return {}; // they are not shown
   return {texture(look, "texture", look.texture), texture(look, "texture-back", look.texture_back),
-          texture(look, "texture-inside", look.texture_inside)};
+          texture(look, "texture-inside", look.texture_inside),
+          texture(look, "roughness", look.roughness, Use::Numbers),
+          texture(look, "roughness-inside", look.roughness_inside, Use::Numbers)};
 }
 
 } // namespace rend

@@ -11,12 +11,18 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace rend {
 
 // Those of a body; null: none.
 struct LookTextures {
   std::shared_ptr<const Texture> front, back, inside;
+  std::shared_ptr<const Texture> roughness, roughness_inside; // numbers
+
+  // By whose proportions those outside and inside lie; null: there is none.
+  const Texture* leading() const { return (front ? front : back ? back : roughness).get(); }
+  const Texture* leading_inside() const { return (inside ? inside : roughness_inside).get(); }
 };
 
 // What a look says of pictures, and the pictures themselves. solid: the body is. UserError (BadInput): a
@@ -30,9 +36,10 @@ public:
   LookTextures of(const LookSettings& look); // UserError: what a file is refused for
 
 private:
+  enum class Use { Colours, Numbers };
   std::shared_ptr<const Texture> texture(const LookSettings& look, const std::string& attribute,
-                                         const std::string& file);
-  std::map<std::filesystem::path, std::shared_ptr<const Texture>> read_;
+                                         const std::string& file, Use use = Use::Colours);
+  std::map<std::pair<std::filesystem::path, Use>, std::shared_ptr<const Texture>> read_;
 };
 
 } // namespace rend

@@ -71,7 +71,8 @@ std::vector<FileOfPreset> files_of(const PresetNode& scene) {
   for (const PresetNode* body : scene.all("body")) {
     for (const PresetNode* mesh : body->all("mesh")) files.push_back(file_of(*mesh));
     for (const PresetNode* look : body->all("look"))
-      for (const char* attribute : {"texture", "texture-back", "texture-inside"})
+      for (const char* attribute :
+           {"texture", "texture-back", "texture-inside", "roughness", "roughness-inside"})
         if (look->find(attribute) && !look->text(attribute).empty()) files.push_back({look, attribute, folder});
   }
   return files;

@@ -184,6 +184,47 @@ BENCHMARK_CAPTURE(in_a_row, frames, 5'000)->Name("figure/frame_5000_serial")->Ap
 BENCHMARK_CAPTURE(overlapped, occluded, 5'000, true)->Name("figure/frame_5000_occlusion")->Apply(whole_way);
 BENCHMARK_CAPTURE(overlapped, many, 200'000, false)->Name("figure/frame_200000")->Apply(whole_way);
 
+// A photograph's worth of detail, 1024 pixels a side.
+Image detailed(unsigned seed) {
+  Image image(1024, 1024);
+  unsigned state = seed;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        state = state * 1664525U + 1013904223U;
+        image.row(y)[3 * x + c] =
+            static_cast<std::uint8_t>(128 + 80 * std::sin(0.02 * x + c) * std::cos(0.03 * y) + (state >> 28));
+      }
+  return image;
+}
+
+// Drawing only: the cloth with so many pictures on it: on its front, on its back as well, and of its roughness.
+void draw_with_maps(benchmark::State& state) {
+  const std::unique_ptr<Device> device = make_device();
+  Renderer renderer(width, height, 4);
+  const auto maps = state.range(0);
+  FrameTexture texture;
+  if (maps > 0) texture.front = make_texture(detailed(1));
+  if (maps > 1) texture.back = make_texture(detailed(2));
+  if (maps > 2) texture.roughness = make_number_texture(detailed(3));
+  std::vector<Frame> clip = frames(5'000);
+  for (Frame& frame : clip) {
+    FrameBody& body = frame.bodies.front();
+    body.texture = texture;
+    for (const Corner& corner : body.corners)
+      if (texture.any())
+        body.texture_points.push_back({corner.position[0] / 2 + 0.5f, corner.position[1] / 2 + 0.5f});
+  }
+  renderer.draw(clip.front()); // compiles the shaders
+  renderer.read();
+  std::size_t number = 0;
+  for (auto _ : state) {
+    renderer.draw(clip[number++ % phases]);
+    benchmark::DoNotOptimize(renderer.read());
+  }
+}
+BENCHMARK(draw_with_maps)->DenseRange(0, 3)->Apply(in_processor_time);
+
 // Drawing only, with the named feature removed, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
   const std::unique_ptr<Device> device = make_device();

@@ -103,6 +103,22 @@ TEST(Texture, gives_no_colour_to_what_is_transparent) {
 
 // In doubles, without rounding between levels: each level by itself from the whole picture, since shares of
 // halves of halves are shares of quarters where sizes are powers of two.
+TEST(Texture, of_numbers_has_their_plain_mean_on_every_level) {
+  const Image image = noise(37, 20, 3);
+  const auto texture = make_number_texture(image);
+  EXPECT_FALSE(texture->cut_out);
+  double mean = 0;
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 37; ++x) mean += image.at(x, y)[1] / (37.0 * 20);
+  EXPECT_EQ(shown(texture->levels[0], 5, 0, 0), image.at(5, 19)[1]) << "green, with the lowest row first";
+  for (const TextureLevel& level : texture->levels) {
+    ASSERT_EQ(level.channels, 1);
+    double of_level = 0;
+    for (const std::uint8_t number : level.texels) of_level += number;
+    EXPECT_NEAR(of_level / static_cast<double>(level.texels.size()), mean, 0.6) << level.width;
+  }
+}
+
 TEST(Texture, is_the_mean_over_squares_of_the_whole_picture_weighted_by_alpha) {
   const Image image = noise(32, 16, 4);
   const auto texture = make_texture(image);

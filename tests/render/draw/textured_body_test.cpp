@@ -273,6 +273,38 @@ TEST_F(TexturedBody, goes_with_transparent_pictures_occlusion_wires_and_motion_b
   EXPECT_GT(reddest, 30) << "lines have the colours of the picture";
 }
 
+// A black square, so that all of its light is the highlight: against finish.h's formula, in bands of a picture.
+TEST_F(TexturedBody, is_as_glossy_as_a_picture_of_its_roughness_says) {
+  constexpr std::array<std::uint8_t, 4> rough{0, 45, 128, 255}; // from left to right
+  const auto bands = make_number_texture(painted(4, 1, [&](int x, int) {
+    return Colour{7, rough[static_cast<std::size_t>(x)], 200, 255};
+  }));
+  for (const int sharpness : {1, 3, 5, 7}) {
+    Frame frame = view();
+    frame.light =
+        Eigen::Vector3d(-0.2, -1, 0.28); // at some 19 degrees from the camera: the lamp is not reflected
+    FrameBody& body = frame.bodies.front();
+    for (Corner& corner : body.corners) corner.colour = {0, 0, 0, 255};
+    body.finish.gloss = 0.8f;
+    body.finish.sharpness = sharpness;
+    const Image plain_finish = picture(frame);
+    body.texture.roughness = bands;
+    body.texture.wrap = Wrap::Clamp;
+    for (const Corner& corner : body.corners)
+      body.texture_points.push_back({corner.position[0] + 0.5f, corner.position[2] + 0.5f});
+    const Image now = picture(frame);
+    const double cosine = 1 / std::sqrt(1 + 0.2 * 0.2 + 0.28 * 0.28);
+    const double least = std::sqrt(2 / (std::pow(2.0, sharpness) + 2));
+    for (std::size_t n = 0; n < rough.size(); ++n) {
+      const int x = static_cast<int>(side * (0.5 + share * ((static_cast<double>(n) + 0.5) / 4 - 0.5)));
+      const double a = least + (0.8 - least) * rough[n] / 255.0, exponent = 2 / (a * a) - 2;
+      const double light = 0.8 * (least * least) / (a * a) * std::pow(cosine, exponent);
+      EXPECT_NEAR(middle(now, x, 1), 255 * std::sqrt(light), 2) << sharpness << ", " << n;
+    }
+    EXPECT_NEAR(middle(now, side / 2 - 40, 1), middle(plain_finish, side / 2 - 40, 1), 1) << "0: as the finish";
+  }
+}
+
 // What one Renderer drew before is no part of what it draws now.
 TEST_F(TexturedBody, leaves_nothing_to_the_next_frame) {
   const auto texture = make_texture(painted(2, 2, [](int x, int) {

@@ -259,6 +259,17 @@ TEST(PictureOfASolid, GivesWhatFractureLaidBareTheInsideColour) {
   EXPECT_EQ(inside, 2 * 4 * 2 * 3);
 }
 
+TEST(PictureOfASolid, GivesWhatFractureLaidBareAFinishOfItsOwn) {
+  ShownBar shown(R"(<look finish="brittle" finish-inside="matte"/>)");
+  shown.part();
+  shown.maker->observe();
+  const std::vector<FrameBody> bodies = shown.maker->draw(0, 0).bodies;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].finish.name, "brittle");
+  EXPECT_EQ(bodies[1].finish.name, "matte");
+  EXPECT_EQ(bodies[1].corners.size(), 2U * 4 * 2 * 3);
+}
+
 TEST(PictureOfASolid, ShowsFragmentsAndQuantitiesOnAllFaces) {
   ShownBar fragments(R"(<look by="fragment" inside="#a0b0c0"/>)");
   EXPECT_EQ(colours(fragments.frame()).size(), 1u);

@@ -99,6 +99,28 @@ TEST(SheetRim, ClosesTheSlabThatASheetIsDrawnAs) {
   }
 }
 
+// Of a mass that says how thick the sheet is: 1.5 m in size, so that it is seen from 5 mm on.
+TEST(SheetRim, IsThatOfTheMassWhereItCanBeSeen) {
+  const auto bodies = [](double thick, const std::string& look) {
+    const auto preset =
+        load_scene_text(fmt::format(R"(<scene name="thick"><body><sheet cells="6 4" size="1.5 1"/>
+            <mass density="300" thickness="{}"/><springs><stretch k="60"/></springs>{}</body>
+            <time step="1e-3" duration="1"/></scene>)",
+                                    thick, look),
+                        "thick.xml");
+    Scene scene(read_scene(*preset), SceneOptions{});
+    FrameBuilder maker(picture_settings(*preset), scene, 1.5, 1, 31);
+    maker.observe();
+    return maker.draw(0, 0).bodies;
+  };
+  EXPECT_EQ(bodies(0.004, "").size(), 1U);
+  const std::vector<FrameBody> slab = bodies(0.006, "");
+  ASSERT_EQ(slab.size(), 3U) << "front, back and rim";
+  EXPECT_FLOAT_EQ(slab[0].corners[0].position[2] - slab[1].corners[0].position[2], 0.006f);
+  for (const char* look : {R"(<look as="wires"/>)", R"(<look smooth="2"/>)", R"(<look as="exploded"/>)"})
+    EXPECT_EQ(bodies(0.006, look).size(), 1U) << look;
+}
+
 TEST(SheetRim, ClosesABandWithOneSide) {
   Shown shown(R"(<sheet cells="24 3" size="3 0.4" close="twist"/>)");
   EXPECT_EQ(open_sides(shown.slab()), 0U);

@@ -372,13 +372,28 @@ TEST(TextureMap, keeps_texture_coordinates_of_a_sheet_that_tears_and_is_subdivid
   });
 }
 
+// One picture of roughness without any of colours: it lies as that would.
+TEST(TextureMap, lays_roughness_where_a_texture_would_lie) {
+  NEEDS_PNG;
+  for (const std::string shape :
+       {R"(<sheet cells="2 2" size="2 1"/>)", R"(<bar cells="2 2 2" size="2 1 1"/>)"}) {
+    const Shown coloured(shape + matter + R"(<look texture="wide.png"/>)");
+    const Shown rough(shape + matter + R"(<look roughness="wide.png"/>)");
+    const FrameBody expected = coloured.bodies().at(0), body = rough.bodies().at(0);
+    EXPECT_EQ(body.texture_points, expected.texture_points);
+    EXPECT_FALSE(body.texture.front);
+    EXPECT_TRUE(body.texture.roughness);
+  }
+}
+
 TEST(TextureMap, puts_a_picture_of_its_own_on_what_breaks_open) {
   NEEDS_PNG;
   const Shown shown(R"(<bar cells="6 1 1" size="3 0.5 0.5"/><mass total="1"/>)"
                     R"(<springs><stretch k="100"/><shear kind="isotropic" where="volume" k="50"/></springs>)"
                     R"(<fix side="-x"/><drive side="+x" velocity="2 0 0"/>)"
                     R"(<tear criterion="atomic-border" threshold="10" change="separate" max-per-step="1"/>)"
-                    R"(<look texture="wide.png" texture-inside="other.png"/>)",
+                    R"(<look texture="wide.png" texture-inside="other.png" roughness-inside="wide.png"
+                             finish="brittle" finish-inside="matte"/>)",
                     R"(<time step="1e-3" duration="1"/>)");
   const std::size_t whole = shown.bodies().at(0).corners.size();
   for (int n = 0; n < 900 && shown.scene->tears() == 0; ++n) shown.scene->step();
@@ -389,6 +404,11 @@ TEST(TextureMap, puts_a_picture_of_its_own_on_what_breaks_open) {
   ASSERT_GE(bodies[1].corners.size(), 12U);
   ASSERT_EQ(bodies[1].texture_points.size(), bodies[1].corners.size());
   EXPECT_NE(bodies[0].texture.front, bodies[1].texture.front);
+  EXPECT_FALSE(bodies[0].texture.roughness);
+  ASSERT_TRUE(bodies[1].texture.roughness);
+  EXPECT_EQ(bodies[1].texture.roughness->levels[0].channels, 1);
+  EXPECT_EQ(bodies[0].finish.name, "brittle");
+  EXPECT_EQ(bodies[1].finish.name, "matte");
   for (const TexturePoint& at : bodies[1].texture_points) { // corners of 0.5 m in a picture of 3 m x 2 m
     EXPECT_NEAR(std::abs(at[0] - 0.5), 0.25 / 3, 1e-6);
     EXPECT_NEAR(std::abs(at[1] - 0.5), 0.25 / 2, 1e-6);
