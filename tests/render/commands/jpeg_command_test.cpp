@@ -66,7 +66,8 @@ TEST(JpegTexture, that_is_damaged_is_refused_at_the_attribute) {
     EXPECT_THAT(outcome.err, HasSubstr("hint: "));
     return outcome.err;
   };
-  EXPECT_THAT(refused(good.substr(0, good.size() / 2)), HasSubstr("a texture is a PNG or JPEG file"));
+  EXPECT_THAT(refused(good.substr(0, good.size() / 2)),
+              HasSubstr("save the picture again, as a complete PNG or JPEG file"));
   EXPECT_THAT(refused(jpeg_claiming(good, 4097, 16)), HasSubstr("at most 4096 x 4096 are allowed"));
   EXPECT_THAT(refused(jpeg_file(pattern(24, 16, 4), {.colours = JpegColours::Cmyk})), HasSubstr("(CMYK)"));
   place.write("p.jpg", good);
