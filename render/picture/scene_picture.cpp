@@ -246,9 +246,9 @@ void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
   front.sides = SheetSides::Front;
   back.sides = SheetSides::Back;
   rim.two_sided = false;
-  const auto colour = [this](const Surface::Triangle& triangle, std::size_t k, bool torn) {
+  const auto colour = [this](const BoundaryTriangle& triangle, std::size_t k, bool torn) {
     if (look_.by == ColourBy::Plain) return rim_colour(torn);
-    return colour_at({body_->map->cells(FaceOfVolume).first_dart(triangle.face), triangle.vertex[k], false});
+    return colour_at({triangle.first, triangle.vertex[k], false});
   };
   draw_rim({*body_->map, body_->boundary().sheet(), normals_, *look_.thickness, colour}, rim);
   for (FrameBody* body : {&front, &back, &rim}) out.push_back(std::move(*body));
@@ -269,12 +269,12 @@ void BodyPicture::draw_sheet(FrameBody& out, double raised) {
   out.corners.reserve(3 * sheet.triangles());
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  sheet.for_each_triangle([&](const Surface::Triangle& triangle) {
+  sheet.for_each_triangle([&](const BoundaryTriangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
     Colour colour = look_.colour;
     if (look_.by == ColourBy::Fragment)
-      colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
+      colour = fragment_colours_[labels_[triangle.first.value]];
     std::array<LineKind, 3> lines = triangle.side;
     if (look_.thickness) // the rim takes the place of the others
       for (LineKind& line : lines) line = line == LineKind::Cell ? line : LineKind::Inner;
@@ -296,7 +296,7 @@ void BodyPicture::lay_on_sheet(FrameBody& out) const {
   out.texture_points.reserve(out.corners.size());
   if (map_->places()) return lay_by_coordinates(out);
   const auto& rest = body_->map->rest().values();
-  body_->boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+  body_->boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 p = rest[a].vec(), q = rest[b].vec(), r = rest[c].vec();
     const TextureMap::Chart chart = map_->chart((p + q + r) / 3, (q - p).cross(r - p));
@@ -308,9 +308,9 @@ void BodyPicture::lay_on_sheet(FrameBody& out) const {
 void BodyPicture::lay_by_coordinates(FrameBody& out) const {
   const EmbeddedMap& map = *body_->map;
   std::vector<Dart> ring; // of a face
-  body_->boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+  body_->boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
     ring.clear();
-    for_each_corner_from_front(map, triangle.face, [&](Dart d) { ring.push_back(d); });
+    for_each_corner_from_front(map, map.slot(FaceOfVolume, triangle.first), [&](Dart d) { ring.push_back(d); });
     std::size_t second = 1; // corner of the triangle, in the ring
     while (second + 2 < ring.size() && (map.vertex(ring[second]) != triangle.vertex[1] ||
                                         map.vertex(ring[second + 1]) != triangle.vertex[2]))
@@ -332,14 +332,14 @@ void BodyPicture::draw_solid(FrameBody& out, Faces which) {
   }
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
+  surface.for_each_triangle([&](const BoundaryTriangle& triangle) {
     if (!is_drawn(which, triangle.exposed)) return;
     Colour colour = triangle.exposed ? look_.inside : look_.colour;
     if (look_.by == ColourBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Slot v = triangle.vertex[k];
       if (by_vertex) colour = vertex_colours_[v];
-      out.corners.push_back(corner(x[v], normals_[triangle.corner[k]], colour, triangle.side));
+      out.corners.push_back(corner(x[v], normals_[triangle.normal[k]], colour, triangle.side));
     }
   });
   if (which != Faces::All) lay_on_solid(out, which);

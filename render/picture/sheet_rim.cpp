@@ -21,8 +21,8 @@ public:
   Rim(const SheetRim& rim, FrameBody& out)
       : rim_(rim), x_(rim.map.position().values()), rest_(rim.map.rest().values()), half_(rim.thickness / 2),
         out_(out), outward_(x_.size(), Vec3::Zero()) {
-    for_each_edge([this](const Surface::Triangle& triangle, std::size_t k) { note_outward(triangle, k); });
-    for_each_edge([this](const Surface::Triangle& triangle, std::size_t k) { add(triangle, k); });
+    for_each_edge([this](const BoundaryTriangle& triangle, std::size_t k) { note_outward(triangle, k); });
+    for_each_edge([this](const BoundaryTriangle& triangle, std::size_t k) { add(triangle, k); });
   }
 
 private:
@@ -33,33 +33,33 @@ private:
 
   // Calls f(triangle, k), the edge opposite to its corner k.
   template <class F> void for_each_edge(F&& f) const {
-    rim_.surface.for_each_triangle([&](const Surface::Triangle& triangle) {
+    rim_.surface.for_each_triangle([&](const BoundaryTriangle& triangle) {
       for (std::size_t k = 0; k < 3; ++k)
         if (triangle.side[k] == LineKind::Border || triangle.side[k] == LineKind::Torn) f(triangle, k);
     });
   }
 
-  Vec3 flat(const Surface::Triangle& t) const {
+  Vec3 flat(const BoundaryTriangle& t) const {
     const Vec3 a = x_[t.vertex[0]];
     return (x_[t.vertex[1]].vec() - a).cross(x_[t.vertex[2]].vec() - a);
   }
   // Across the edge opposite to corner k, away from it; unit, or 0.
-  Vec3 away(const Surface::Triangle& t, std::size_t k) const {
+  Vec3 away(const BoundaryTriangle& t, std::size_t k) const {
     const Vec3 along = x_[t.vertex[(k + 2) % 3]].vec() - x_[t.vertex[(k + 1) % 3]].vec();
     return along.cross(flat(t)).stableNormalized();
   }
-  void note_outward(const Surface::Triangle& t, std::size_t k) {
+  void note_outward(const BoundaryTriangle& t, std::size_t k) {
     for (const std::size_t end : {(k + 1) % 3, (k + 2) % 3}) outward_[t.vertex[end]] += away(t, k);
   }
 
-  void add(const Surface::Triangle& t, std::size_t k) {
+  void add(const BoundaryTriangle& t, std::size_t k) {
     const Place from = end_of(t, k, (k + 1) % 3), to = end_of(t, k, (k + 2) % 3);
     colour_ = rim_.colour(t, (k + 1) % 3, t.side[k] == LineKind::Torn);
     t.side[k] == LineKind::Torn ? add_torn(from, to) : add_round(from, to);
   }
 
   // Outward is that of both edges at the vertex where they have one, so that their rims meet.
-  Place end_of(const Surface::Triangle& t, std::size_t k, std::size_t end) const {
+  Place end_of(const BoundaryTriangle& t, std::size_t k, std::size_t end) const {
     const Slot v = t.vertex[end];
     Place at{x_[v], rest_[v], normal_on_side(rim_.normals[v], flat(t)), away(t, k)};
     const bool shared = outward_[v].norm() >= least_outward;

@@ -32,7 +32,7 @@ struct SheetRim {
   std::span<const Vec3> normals; // Surface::normals()
   double thickness;              // [m]
   // At corner k of a triangle, where the edge opposite to it is torn or not.
-  std::function<Colour(const Surface::Triangle&, std::size_t k, bool torn)> colour;
+  std::function<Colour(const BoundaryTriangle&, std::size_t k, bool torn)> colour;
 };
 
 // Appends the triangles to `out`, counter-clockwise as seen from outside.

@@ -8,7 +8,7 @@ namespace {
 void take_means(const Surface& sheet, const std::vector<Record>& x, std::vector<Vec3>& normals,
                 std::vector<Vec3>& sums) {
   sums.assign(normals.size(), Vec3::Zero());
-  sheet.for_each_triangle([&](const Surface::Triangle& triangle) {
+  sheet.for_each_triangle([&](const BoundaryTriangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec()); // twice the area long
     Vec3 sum = Vec3::Zero();

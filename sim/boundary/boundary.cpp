@@ -40,7 +40,7 @@ SolidSurface& Boundary::solid() {
 }
 
 BoundaryFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
-  const bool turned = sense_ && (*sense_)[map_.slot(FaceOfVolume, first)] != 0;
+  const bool turned = is_turned(sense_, map_.slot(FaceOfVolume, first));
   vertices_of_face(map_, first, turned, vertices);
   return {
       .first = first, .turned = turned, .exposed = false, .sides = static_cast<std::uint32_t>(vertices.size())};

@@ -31,7 +31,7 @@ public:
 
   // Calls f(BoundaryFaces::Face, std::span<const Slot> vertices), face after face by their smallest darts (of a
   // sheet by their slots, which is the same until an edit makes new faces). Vertices come in the order in which
-  // the face is walked, from that of its smallest dart on.
+  // the face is walked, from that of its smallest dart on; in a turned face of a sheet that one is the last.
   template <class F> void for_each_face(F&& f) const {
     std::vector<Slot> vertices;
     if (solid_) {
@@ -47,6 +47,11 @@ public:
       const BoundaryFaces::Face found = face_of_sheet(first, vertices);
       f(found, std::span<const Slot>(vertices));
     });
+  }
+
+  // Calls f(BoundaryTriangle): those of a face of a solid one after another, those of a sheet in any order.
+  template <class F> void for_each_triangle(F&& f) {
+    solid_ ? solid_->for_each_triangle(f) : sheet().for_each_triangle(f);
   }
 
   Surface& sheet();      // CHECK: of a sheet; made when it is first asked for

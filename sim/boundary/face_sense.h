@@ -28,4 +28,9 @@ inline const Column<FaceSense>* find_face_sense(const EmbeddedMap& map) {
   return find_column<FaceSense>(map);
 }
 
+// Whether the front of a face is that of the walk from α1 of its smallest dart. sense: null as above.
+inline bool is_turned(const Column<FaceSense>* sense, Slot face) {
+  return sense && (*sense)[face] != 0;
+}
+
 } // namespace rend

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "sim/boundary/boundary_faces.h"
+#include "sim/boundary/boundary_triangle.h"
 #include "sim/embedding/initial_border.h"
 #include "sim/topology/marks.h"
 
@@ -33,31 +34,26 @@ public:
 
   bool update(); // after edits; costs as much as they touched; false: there were none
 
-  struct Triangle {
-    std::array<Slot, 3> vertex;          // counter-clockwise as seen from outside, at rest
-    std::array<std::uint32_t, 3> corner; // index into normals
-    std::array<LineKind, 3> side;        // opposite to vertex k
-    Dart first;                          // the smallest dart of its face
-    bool exposed;                        // exposed by fracture
-  };
   std::size_t faces() const { return boundary_.count(); }
   std::size_t triangles() const { return boundary_.corner_count() - 2 * boundary_.count(); }
 
   // Calls f(BoundaryFaces::Face, std::span<const BoundaryFaces::Corner>) by smallest darts.
   template <class F> void for_each_face(F&& f) const { boundary_.for_each(std::forward<F>(f)); }
 
-  // Calls f(Triangle), face after face by their smallest darts. A face becomes a fan around its first corner.
+  // Calls f(BoundaryTriangle), face after face by their smallest darts.
   template <class F> void for_each_triangle(F&& f) const {
     std::uint32_t base = 0;
     boundary_.for_each([&](const BoundaryFaces::Face& face, std::span<const BoundaryFaces::Corner> corner) {
-      for (std::uint32_t k = 1; k + 1 < face.sides; ++k) {
-        const LineKind last = k + 2 == face.sides ? corner[k + 1].side : LineKind::Inner;
-        const LineKind lead = k == 1 ? corner[0].side : LineKind::Inner;
-        f(Triangle{{corner[0].vertex, corner[k].vertex, corner[k + 1].vertex},
-                   {base, base + k, base + k + 1},
-                   {corner[k].side, last, lead},
-                   face.first,
-                   face.exposed});
+      const auto kind = [&](std::uint32_t k) { return corner[k].side; };
+      for (std::uint32_t number = 0; number < fan_size(face.sides); ++number) {
+        const auto [a, b, c] = fan_corners(number);
+        f(BoundaryTriangle{.vertex = {corner[a].vertex, corner[b].vertex, corner[c].vertex},
+                           .normal = {base + a, base + b, base + c},
+                           .side = fan_lines(number, face.sides, kind),
+                           .first = face.first,
+                           .number = number,
+                           .turned = face.turned,
+                           .exposed = face.exposed});
       }
       base += face.sides;
     });

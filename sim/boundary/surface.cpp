@@ -1,6 +1,7 @@
 #include "sim/boundary/surface.h"
 
 #include "sim/base/check.h"
+#include "sim/mechanics/winding.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -50,34 +51,41 @@ LineKind Surface::line_kind_of(Dart d) const {
   return torn ? LineKind::Torn : LineKind::Border;
 }
 
-void Surface::write_face(Slot face) {
+// In the order in which its front is walked; none: there is no such face, or it is not closed.
+void Surface::collect_sides(Slot face) {
   const EmbeddedMap& map = map_;
   const CellIndex& faces = map.cells(FaceOfVolume);
-  const bool seen = faces.alive(face);
-  const bool reversed = seen && sense_ && (*sense_)[face] != 0;
-  const Dart first = reversed ? map.map().alpha(1, faces.first_dart(face)) : faces.first_dart(face);
-  const int sides = seen ? sides_of_face(map.map(), first) : 0;
-  // the dart that starts the second side
-  Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first;
+  sides_.clear();
+  if (!faces.alive(face)) return;
+  const Dart smallest = faces.first_dart(face);
+  Dart at = is_turned(sense_, face) ? map.map().alpha(1, smallest) : smallest;
+  for (int left = sides_of_face(map.map(), smallest); left > 0; --left) {
+    sides_.push_back(at);
+    at = map.map().follow(at, to_next_side);
+  }
+}
+
+void Surface::write_face(Slot face) {
+  const EmbeddedMap& map = map_;
+  collect_sides(face);
+  const auto sides = static_cast<std::uint32_t>(sides_.size());
   if (triangles_.live(face * fan_ + fan_ - 1)) --full_;
-  if (sides == static_cast<int>(fan_) + 2) ++full_;
-  for (std::size_t n = 0; n < fan_; ++n) {
-    const std::size_t key = face * fan_ + n;
-    if (static_cast<int>(n) + 2 >= sides) {
+  if (fan_size(sides) == fan_) ++full_;
+  for (std::uint32_t number = 0; number < fan_; ++number) {
+    const std::size_t key = face * fan_ + number;
+    if (number >= fan_size(sides)) {
       triangles_.erase(key);
       continue;
     }
-    const Dart next = map.map().alpha(1, map.map().alpha(0, at));
-    const LineKind opposite = line_kind_of(at);
-    const LineKind last = static_cast<int>(n) + 3 == sides ? line_kind_of(next) : LineKind::Inner;
-    const LineKind lead = n == 0 ? line_kind_of(first) : LineKind::Inner;
-    const std::array<std::uint32_t, 5> row{map.vertex(first), map.vertex(at), map.vertex(next),
-                                           static_cast<std::uint32_t>(opposite) |
-                                               static_cast<std::uint32_t>(last) << 2 |
-                                               static_cast<std::uint32_t>(lead) << 4,
+    const auto [a, b, c] = fan_corners(number);
+    const std::array<LineKind, 3> lines =
+        fan_lines(number, sides, [&](std::uint32_t k) { return line_kind_of(sides_[k]); });
+    const std::array<std::uint32_t, 5> row{map.vertex(sides_[a]), map.vertex(sides_[b]), map.vertex(sides_[c]),
+                                           static_cast<std::uint32_t>(lines[0]) |
+                                               static_cast<std::uint32_t>(lines[1]) << 2 |
+                                               static_cast<std::uint32_t>(lines[2]) << 4,
                                            face};
     triangles_.set(key, row.data(), nullptr);
-    at = next;
   }
 }
 

@@ -5,15 +5,15 @@
 // map changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a
 // picture is made.
 //
-// A face becomes a fan around its first dart's vertex; only its own sides are drawn as lines, so that a quad
-// shows as a quad. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where
-// the darts around the vertex are alternately even and odd from its smallest dart on: the corners are then
-// oriented consistently without an orientation of the whole, on a Möbius band as well.
+// The fan of a face (boundary_triangle.h) is around the vertex of its smallest dart, and goes as its front is
+// walked. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where the
+// darts around the vertex are alternately even and odd from its smallest dart on: the corners are then oriented
+// consistently without an orientation of the whole, on a Möbius band as well.
 #pragma once
 
+#include "sim/boundary/boundary_triangle.h"
 #include "sim/boundary/face_sense.h"
 #include "sim/embedding/initial_border.h"
-#include "sim/boundary/line_kind.h"
 #include "sim/rows/packed_rows.h"
 
 namespace rend {
@@ -27,21 +27,25 @@ public:
 
   void update(); // after edits; does nothing if there were none
 
-  struct Triangle {
-    std::array<Slot, 3> vertex;
-    std::array<LineKind, 3> side; // opposite to vertex k
-    Slot face;                    // slot of <0,1>
-  };
   std::size_t triangles() const { return triangles_.live_count(); }
 
-  // Calls f(Triangle) in the order of rows.
+  // Calls f(BoundaryTriangle) in the order of rows.
   template <class F> void for_each_triangle(F&& f) const {
-    triangles_.for_each([&](std::size_t, std::size_t row) {
+    const EmbeddedMap& map = map_;
+    const CellIndex& faces = map.cells(FaceOfVolume);
+    triangles_.for_each([&](std::size_t key, std::size_t row) {
+      const std::array<Slot, 3> vertex{triangles_.index(0)[row], triangles_.index(1)[row],
+                                       triangles_.index(2)[row]};
       const std::uint32_t sides = triangles_.index(3)[row];
-      f(Triangle{{triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
-                 {static_cast<LineKind>(sides & 3), static_cast<LineKind>(sides >> 2 & 3),
-                  static_cast<LineKind>(sides >> 4 & 3)},
-                 triangles_.index(4)[row]});
+      const Slot face = triangles_.index(4)[row];
+      f(BoundaryTriangle{.vertex = vertex,
+                         .normal = vertex,
+                         .side = {static_cast<LineKind>(sides & 3), static_cast<LineKind>(sides >> 2 & 3),
+                                  static_cast<LineKind>(sides >> 4 & 3)},
+                         .first = faces.first_dart(face),
+                         .number = static_cast<std::uint32_t>(key - face * fan_),
+                         .turned = is_turned(sense_, face),
+                         .exposed = false});
     });
   }
 
@@ -56,6 +60,7 @@ public:
 
 private:
   void rebuild();
+  void collect_sides(Slot face);
   void write_face(Slot face);
   void write_corners(Slot vertex);
   LineKind line_kind_of(Dart d) const;
@@ -69,6 +74,7 @@ private:
   PackedRows triangles_;           // key: face slot × fan_ + n; vertices, sides, face
   PackedRows corners_;             // key: corner slot; vertex, even end, odd end
   Changes changes_;
+  std::vector<Dart> sides_; // scratch: of one face, the darts that start its sides
 };
 
 } // namespace rend

@@ -1,5 +1,7 @@
 #include "sim/contact/contact_faces.h"
 
+#include "sim/boundary/boundary_triangle.h"
+
 namespace rend {
 
 ContactFaces::ContactFaces(EmbeddedMap& map, Boundary& boundary) : map_(map), boundary_(boundary) {
@@ -20,9 +22,11 @@ void ContactFaces::list() {
   triangles_.clear();
   boundary_.for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
     const Slot slot = map_.slot(FaceOfVolume, face.first);
-    const std::size_t n = ring.size(), start = face.turned ? 1 : 0;
-    for (std::size_t k = 1; k + 1 < n; ++k)
-      triangles_.push_back({{ring[start], ring[(start + k) % n], ring[(start + k + 1) % n]}, slot});
+    const auto at = [&](std::uint32_t corner) { return ring[(corner + (face.turned ? 1 : 0)) % ring.size()]; };
+    for (std::uint32_t number = 0; number < fan_size(face.sides); ++number) {
+      const auto [a, b, c] = fan_corners(number);
+      triangles_.push_back({{at(a), at(b), at(c)}, slot});
+    }
   });
 }
 

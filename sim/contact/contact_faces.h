@@ -1,8 +1,11 @@
 // What others can touch of a body: the faces of its boundary as triangles, those of a solid counter-clockwise
 // as seen from outside at rest. Listed anew after edits.
 //
-// A face becomes a fan around the vertex of its smallest dart, or, where it is walked the other way around,
-// around the vertex before that: the diagonals of a quad differ, and the course of a contact with them.
+// A face becomes a fan as where it is drawn (boundary_triangle.h), but around its second corner where it is
+// walked the other way around: the diagonals of a quad differ, and the course of a contact with them.
+//
+// Searches go through all triangles, so each is kept to 16 bytes, four to a cache line: what is read to draw
+// one is not here.
 #pragma once
 
 #include "sim/base/bytes.h"
@@ -23,6 +26,7 @@ public:
     std::array<Slot, 3> vertex;
     Slot face; // slot of <0,1>
   };
+  static_assert(sizeof(Triangle) == 16);
   const std::vector<Triangle>& triangles() const { return triangles_; } // in the order of the boundary
   std::size_t bytes() const { return bytes_of(triangles_); }
 

@@ -38,6 +38,15 @@ private:
   void add_exposed();
   void add_places(const SkinPicture& picture);
 
+  // Calls f(dart) for each of its corners, in the order in which it is walked.
+  template <class F> void for_each_corner(const SkinFace& face, F&& f) const {
+    Dart at = face.start;
+    do {
+      f(at);
+      at = links_.follow(at, to_next_side);
+    } while (at != face.start);
+  }
+
   Body& body_;
   const EmbeddedMap& map_;
   const GMap& links_;
@@ -87,13 +96,7 @@ void BodySkin::collect_faces() {
 
 void BodySkin::add_points() {
   point_.assign(map_.cells(Vertex).slots(), -1);
-  for (const SkinFace& face : faces_) {
-    Dart at = face.start;
-    do {
-      point_[map_.vertex(at)] = 0;
-      at = links_.follow(at, to_next_side);
-    } while (at != face.start);
-  }
+  for (const SkinFace& face : faces_) for_each_corner(face, [&](Dart d) { point_[map_.vertex(d)] = 0; });
   for (Slot v = 0; v < point_.size(); ++v) {
     if (point_[v] < 0) continue;
     point_[v] = static_cast<std::int32_t>(skin_.vertex.size());
@@ -107,11 +110,7 @@ void BodySkin::add_points() {
 
 void BodySkin::add_faces(std::int32_t fragments) {
   for (const SkinFace& face : faces_) {
-    Dart at = face.start;
-    do {
-      skin_.corners.push_back(point_[map_.vertex(at)]);
-      at = links_.follow(at, to_next_side);
-    } while (at != face.start);
+    for_each_corner(face, [&](Dart d) { skin_.corners.push_back(point_[map_.vertex(d)]); });
     skin_.ends.push_back(static_cast<std::int64_t>(skin_.corners.size()));
     skin_.body_of_face.push_back(number_);
     skin_.fragment.push_back(fragments + static_cast<std::int32_t>(face.fragment));
@@ -137,11 +136,7 @@ void BodySkin::add_places(const SkinPicture& picture) {
   std::vector<Dart> corners; // of a face
   for (const SkinFace& face : faces_) {
     corners.clear();
-    Dart at = face.start;
-    do {
-      corners.push_back(at);
-      at = links_.follow(at, to_next_side);
-    } while (at != face.start);
+    for_each_corner(face, [&](Dart d) { corners.push_back(d); });
     if (picture.material(face.exposed).picture.empty())
       skin_.texture.resize(skin_.texture.size() + corners.size());
     else

@@ -201,8 +201,8 @@ std::map<std::uint32_t, Kept> corners_by_face(const Shown& shown) {
   std::map<std::uint32_t, Kept> all;
   const EmbeddedMap& map = *shown.body().map;
   std::size_t n = 0;
-  shown.body().boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
-    Kept& kept = all[map.cells(FaceOfVolume).first_dart(triangle.face).value];
+  shown.body().boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
+    Kept& kept = all[triangle.first.value];
     for (std::size_t k = 0; k < 3; ++k) {
       kept.rest[k] = map.rest()[triangle.vertex[k]];
       kept.point[k] = body.texture_points.at(n++);
@@ -359,10 +359,9 @@ TEST(TextureMap, keeps_texture_coordinates_of_a_sheet_that_tears_and_is_subdivid
   const EmbeddedMap& map = *shown.body().map;
   const auto& rest = map.rest();
   std::size_t n = 0;
-  shown.body().boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+  shown.body().boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
     double middle = 0; // of the face: some of its triangles lie in the seam
-    for (const Dart d : darts_of(map.map(), FaceOfVolume, map.cells(FaceOfVolume).first_dart(triangle.face)))
-      middle += map.rest_of(d).x() - 2;
+    for (const Dart d : darts_of(map.map(), FaceOfVolume, triangle.first)) middle += map.rest_of(d).x() - 2;
     for (const Slot v : triangle.vertex) {
       const Found expected = place_in_strip(rest[v].x, rest[v].z, middle < 0);
       EXPECT_NEAR(body.texture_points[n][0], expected[0], 1e-6);

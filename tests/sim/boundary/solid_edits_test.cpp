@@ -142,19 +142,19 @@ void expect_equal(SolidSurface& surface, const Body& body, BruteForce&& brute) {
   const GMap& map = body.map->map();
   const auto normals = normals_of(surface);
   const auto expected = brute.normals();
-  std::map<Dart, std::vector<Triangle>> faces;
-  for (const Triangle& t : triangles_of(surface)) faces[t.first].push_back(t);
+  std::map<Dart, std::vector<BoundaryTriangle>> faces;
+  for (const BoundaryTriangle& t : triangles_of(surface)) faces[t.first].push_back(t);
   ASSERT_EQ(faces.size(), brute.faces().size());
   for (Dart first : brute.faces()) {
     ASSERT_TRUE(faces.contains(first));
     Vec3 area = Vec3::Zero();
     std::map<std::pair<Slot, Slot>, LineKind> sides;
     std::map<Slot, Vec3> drawn;
-    for (const Triangle& t : faces[first]) {
+    for (const BoundaryTriangle& t : faces[first]) {
       EXPECT_EQ(t.exposed, brute.exposed(first));
       area += 2 * area_vector(body, t);
       for (std::size_t k = 0; k < 3; ++k) {
-        drawn[t.vertex[k]] = normals[t.corner[k]];
+        drawn[t.vertex[k]] = normals[t.normal[k]];
         if (t.side[k] != LineKind::Inner)
           sides[std::minmax(t.vertex[(k + 1) % 3], t.vertex[(k + 2) % 3])] = t.side[k];
       }
@@ -253,7 +253,7 @@ TEST(SolidSurface, of_a_vertex_with_two_fans_sees_both) {
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 6, 1e-12);
   std::set<Dart> in_the_middle;
-  for (const Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (Slot v : t.vertex)
       if (place(*body, v) == Vec3(1, 1, 1)) in_the_middle.insert(t.first);
   EXPECT_EQ(in_the_middle.size(), 6u);
@@ -271,7 +271,7 @@ TEST(SolidSurface, of_an_edge_that_two_sheets_of_the_hull_touch_along_keeps_them
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 10, 1e-12);
   std::size_t along = 0;
-  for (const Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 x = place(*body, t.vertex[k]), y = place(*body, t.vertex[(k + 1) % 3]);
       along +=

@@ -46,7 +46,7 @@ TEST(SolidSurface, draws_the_faces_that_only_one_cell_has) {
     const auto body = solids::body(std::move(sewn.map));
     const SolidSurface surface(*body->map, body->border);
     std::map<Dart, std::set<std::uint32_t>> faces;
-    for (const Triangle& t : triangles_of(surface))
+    for (const BoundaryTriangle& t : triangles_of(surface))
       for (Slot v : t.vertex) faces[t.first].insert(point[v]);
     std::multiset<std::vector<std::uint32_t>> drawn;
     for (const auto& [first, points] : faces) drawn.insert({points.begin(), points.end()});
@@ -74,7 +74,7 @@ TEST(SolidSurface, of_a_ball_has_the_euler_characteristic_of_a_sphere_and_of_a_t
     std::set<Slot> vertices;
     std::map<std::pair<Slot, Slot>, int> edges;
     const auto triangles = triangles_of(SolidSurface(*body->map, body->border));
-    for (const Triangle& t : triangles)
+    for (const BoundaryTriangle& t : triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         vertices.insert(t.vertex[k]);
         ++edges[std::minmax(t.vertex[k], t.vertex[(k + 1) % 3])];
@@ -91,11 +91,11 @@ TEST(SolidSurface, faces_outward_however_the_darts_are_numbered) {
     const auto body = solids::body(bar(pattern, 4, 3, 2));
     SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
-    for (const Triangle& t : triangles_of(surface)) {
+    for (const BoundaryTriangle& t : triangles_of(surface)) {
       const Vec3 out = (place(*body, t.vertex[0]) + place(*body, t.vertex[1]) + place(*body, t.vertex[2])) / 3 -
                        Vec3(2, 1.5, 1);
       EXPECT_GT(area_vector(*body, t).dot(out), 0);
-      for (std::uint32_t c : t.corner) EXPECT_GT(normals[c].dot(out), 0);
+      for (std::uint32_t c : t.normal) EXPECT_GT(normals[c].dot(out), 0);
     }
   }
   const auto row = solids::body(assets::row_of_cubes(3)); // by hand
@@ -107,10 +107,10 @@ TEST(SolidSurface, of_a_bar_has_sharp_edges_between_flat_sides) {
     const auto body = solids::body(bar(pattern, 4, 2, 2));
     SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
-    for (const Triangle& t : triangles_of(surface)) {
+    for (const BoundaryTriangle& t : triangles_of(surface)) {
       const Vec3 flat = area_vector(*body, t).normalized();
       EXPECT_NEAR(flat.cwiseAbs().maxCoeff(), 1, 1e-12); // along an axis
-      for (std::uint32_t c : t.corner) EXPECT_NEAR((normals[c] - flat).norm(), 0, 1e-12);
+      for (std::uint32_t c : t.normal) EXPECT_NEAR((normals[c] - flat).norm(), 0, 1e-12);
       for (std::size_t k = 0; k < 3; ++k) {
         if (t.side[k] == LineKind::Inner) continue;
         const Vec3 x = place(*body, t.vertex[(k + 1) % 3]), y = place(*body, t.vertex[(k + 2) % 3]);
@@ -129,9 +129,9 @@ TEST(SolidSurface, of_a_ball_is_smooth) {
     SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
     double worst = 1;
-    for (const Triangle& t : triangles_of(surface))
+    for (const BoundaryTriangle& t : triangles_of(surface))
       for (std::size_t k = 0; k < 3; ++k) {
-        worst = std::min(worst, normals[t.corner[k]].dot(place(*body, t.vertex[k]).normalized()));
+        worst = std::min(worst, normals[t.normal[k]].dot(place(*body, t.vertex[k]).normalized()));
         EXPECT_NE(t.side[k], LineKind::Crease);
       }
     EXPECT_GT(worst, std::cos(0.07)) << static_cast<int>(pattern); // 4°
@@ -146,12 +146,12 @@ TEST(SolidSurface, turns_and_bends_its_normals_with_the_body_but_keeps_its_creas
     x = Record(Vec3(r * std::sin(angle), x.vec().y(), r * std::cos(angle)));
   }
   const auto normals = normals_of(surface);
-  for (const Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 rest = body->map->rest()[t.vertex[k]].vec();
       const double angle = rest.x() / 8;
       const Vec3 along(std::cos(angle), 0, -std::sin(angle)), up(std::sin(angle), 0, std::cos(angle));
-      const Vec3 n = normals[t.corner[k]];
+      const Vec3 n = normals[t.normal[k]];
       const double best = std::max(
           {std::abs(n.dot(along)), std::abs(n.dot(up)), std::abs(n.y())}); // along one of the rotated axes
       EXPECT_GT(best, std::cos(0.07));
@@ -179,9 +179,9 @@ TEST(SolidSurface, marks_what_is_laid_bare_around_a_cell_cut_free_and_keeps_it_f
   EXPECT_NEAR(volume_of(*body, surface), 27, 1e-12);
   const auto normals = normals_of(surface);
   std::set<Dart> exposed;
-  for (const Triangle& t : triangles_of(surface)) {
+  for (const BoundaryTriangle& t : triangles_of(surface)) {
     if (t.exposed) exposed.insert(t.first);
-    for (std::uint32_t c : t.corner)
+    for (std::uint32_t c : t.normal)
       EXPECT_NEAR((normals[c] - area_vector(*body, t).normalized()).norm(), 0, 1e-12);
   }
   EXPECT_EQ(exposed.size(), 12u);
@@ -206,13 +206,13 @@ TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_sol
   surface.update();
   const auto normals = normals_of(surface);
   std::size_t exposed = 0;
-  for (const Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k) {
       exposed += t.exposed;
       const Vec3 expected =
           t.exposed ? area_vector(*body, t).normalized() : place(*body, t.vertex[k]).normalized();
       // At a cut, a corner averages over its own side only, which is tilted like a chord.
-      EXPECT_GT(normals[t.corner[k]].dot(expected), t.exposed ? 1 - 1e-12 : std::cos(0.25));
+      EXPECT_GT(normals[t.normal[k]].dot(expected), t.exposed ? 1 - 1e-12 : std::cos(0.25));
     }
   EXPECT_EQ(exposed, 2u * 36 * 2 * 3);
 }
@@ -225,7 +225,7 @@ TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
   });
   surface.update();
   EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
-  for (const Triangle& t : triangles_of(surface)) EXPECT_FALSE(t.exposed);
+  for (const BoundaryTriangle& t : triangles_of(surface)) EXPECT_FALSE(t.exposed);
   EXPECT_FALSE(body->map->uses(FaceOfVolume)); // no slots for faces are allocated either
 }
 

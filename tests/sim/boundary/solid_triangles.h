@@ -10,11 +10,9 @@
 
 namespace rend::solids {
 
-using Triangle = SolidSurface::Triangle;
-
-inline std::vector<Triangle> triangles_of(const SolidSurface& surface) {
-  std::vector<Triangle> all;
-  surface.for_each_triangle([&](const Triangle& t) { all.push_back(t); });
+inline std::vector<BoundaryTriangle> triangles_of(const SolidSurface& surface) {
+  std::vector<BoundaryTriangle> all;
+  surface.for_each_triangle([&](const BoundaryTriangle& t) { all.push_back(t); });
   return all;
 }
 
@@ -28,7 +26,7 @@ inline Vec3 place(const Body& body, Slot v) {
   return body.map->position()[v].vec();
 }
 
-inline Vec3 area_vector(const Body& body, const Triangle& t) {
+inline Vec3 area_vector(const Body& body, const BoundaryTriangle& t) {
   const Vec3 a = place(body, t.vertex[0]);
   return 0.5 * (place(body, t.vertex[1]) - a).cross(place(body, t.vertex[2]) - a);
 }
@@ -36,7 +34,8 @@ inline Vec3 area_vector(const Body& body, const Triangle& t) {
 // The volume enclosed by the triangles.
 inline double volume_of(const Body& body, const SolidSurface& surface) {
   double sum = 0;
-  for (const Triangle& t : triangles_of(surface)) sum += place(body, t.vertex[0]).dot(area_vector(body, t)) / 3;
+  for (const BoundaryTriangle& t : triangles_of(surface))
+    sum += place(body, t.vertex[0]).dot(area_vector(body, t)) / 3;
   return sum;
 }
 
@@ -44,7 +43,7 @@ inline double volume_of(const Body& body, const SolidSurface& surface) {
 // closed surface.
 inline std::map<std::pair<Slot, Slot>, int> open_sides(const SolidSurface& surface) {
   std::map<std::pair<Slot, Slot>, int> count;
-  for (const Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k) {
       const Slot a = t.vertex[k], b = t.vertex[(k + 1) % 3];
       if (a < b)

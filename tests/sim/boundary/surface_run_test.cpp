@@ -38,7 +38,7 @@ TEST(SurfaceOfARun, keeps_its_triangles_and_shows_two_torn_sides_a_tear) {
   for (int n = 0; n < 300; ++n) scene->step();
   surface.update();
   std::size_t torn = 0, border = 0;
-  surface.for_each_triangle([&](const Surface::Triangle& t) {
+  surface.for_each_triangle([&](const BoundaryTriangle& t) {
     for (LineKind side : t.side) {
       torn += side == LineKind::Torn;
       border += side == LineKind::Border;

@@ -13,9 +13,9 @@ namespace {
 
 using namespace meshes;
 
-std::vector<Surface::Triangle> triangles_of(const Surface& surface) {
-  std::vector<Surface::Triangle> all;
-  surface.for_each_triangle([&](const Surface::Triangle& t) { all.push_back(t); });
+std::vector<BoundaryTriangle> triangles_of(const Surface& surface) {
+  std::vector<BoundaryTriangle> all;
+  surface.for_each_triangle([&](const BoundaryTriangle& t) { all.push_back(t); });
   return all;
 }
 
@@ -30,7 +30,7 @@ std::unique_ptr<Body> tearing(const PolygonMesh& mesh) {
 // vertices.
 std::multimap<std::pair<Slot, Slot>, LineKind> lines_of(const Surface& surface) {
   std::multimap<std::pair<Slot, Slot>, LineKind> lines;
-  for (const Surface::Triangle& t : triangles_of(surface))
+  for (const BoundaryTriangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k)
       if (t.side[k] != LineKind::Inner)
         lines.insert({std::minmax(t.vertex[(k + 1) % 3], t.vertex[(k + 2) % 3]), t.side[k]});
@@ -52,8 +52,8 @@ TEST(Surface, cuts_every_polygon_into_triangles_of_its_own_vertices) {
       const Dart d{2 * s};
       vertices[body->map->slot(FaceOfVolume, d)].insert(body->map->vertex(d));
     }
-    for (const Surface::Triangle& t : triangles_of(surface))
-      for (Slot v : t.vertex) EXPECT_TRUE(vertices.at(t.face).contains(v));
+    for (const BoundaryTriangle& t : triangles_of(surface))
+      for (Slot v : t.vertex) EXPECT_TRUE(vertices.at(body->map->slot(FaceOfVolume, t.first)).contains(v));
   }
 }
 
@@ -61,7 +61,7 @@ TEST(Surface, of_a_flat_sheet_covers_it_once) {
   const auto body = tearing(bricks(8, 4));
   const Surface surface(*body->map, body->border);
   double area = 0;
-  for (const Surface::Triangle& t : triangles_of(surface)) {
+  for (const BoundaryTriangle& t : triangles_of(surface)) {
     const auto x = [&](std::size_t k) { return positions(*body)[t.vertex[k]].vec(); };
     area += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
@@ -94,7 +94,7 @@ TEST(Surface, shows_a_quad_with_four_sides_and_an_inner_diagonal) {
   const Surface surface(*body->map, body->border);
   const auto triangles = triangles_of(surface);
   ASSERT_EQ(triangles.size(), 2u);
-  for (const Surface::Triangle& t : triangles) {
+  for (const BoundaryTriangle& t : triangles) {
     EXPECT_EQ(std::count(t.side.begin(), t.side.end(), LineKind::Inner), 1);
     EXPECT_EQ(std::count(t.side.begin(), t.side.end(), LineKind::Border), 2);
   }

@@ -145,7 +145,7 @@ TEST(Skin, of_a_solid_that_breaks_is_closed_around_every_part_and_knows_what_is_
     expect_positions_of(skin, *scene.scene);
     std::size_t exposed = 0, triangles = 0;
     const SolidSurface surface(*scene.body().map, scene.body().border);
-    surface.for_each_triangle([&](const SolidSurface::Triangle& t) {
+    surface.for_each_triangle([&](const BoundaryTriangle& t) {
       exposed += t.exposed;
       ++triangles;
     });
