@@ -1,5 +1,6 @@
 #include "render/clip/picture_on_skin.h"
 
+#include "render/picture/laid_texture.h"
 #include "render/picture/texture_file.h"
 #include "render/picture/texture_map.h"
 #include "sim/boundary/face_sense.h"
@@ -25,9 +26,8 @@ std::string relative_to(const std::filesystem::path& folder, const std::filesyst
 // Whether the walk of a face of a sheet from d to α0 d shows its front.
 bool shows_front(const EmbeddedMap& map, Dart d) {
   const Slot face = map.slot(FaceOfVolume, d);
-  const Column<FaceSense>* sense = find_face_sense(map);
-  const bool reversed = sense && (*sense)[face] != 0;
-  return turns_alike(map.map(), map.cells(FaceOfVolume).first_dart(face), d) != reversed;
+  return turns_alike(map.map(), map.cells(FaceOfVolume).first_dart(face), d) !=
+         is_turned(find_face_sense(map), face);
 }
 
 // The places of the corners of a face; one chart for all, as in pictures.
@@ -51,9 +51,7 @@ SkinPicture skin_picture_of(const Body& body, const LookSettings& look, const st
   SkinPicture picture;
   picture.outside.colour = shares_of(look.colour);
   picture.exposed.colour = shares_of(look.inside);
-  const bool shown =
-      look.by == ColourBy::Plain && (look.as == DrawStyle::Surface || look.as == DrawStyle::Wires);
-  if (!shown) return picture;
+  if (!shows_pictures(look)) return picture;
   TextureFiles files;
   const LookTextures textures = files.of(look);
   std::optional<TextureMap> outside, exposed;

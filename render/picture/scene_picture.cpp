@@ -31,10 +31,6 @@ Corner corner(const Vec3& x, const Vec3& normal, const Colour& colour, const std
       as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
 }
 
-bool is_drawn(BodyPicture::Faces which, bool exposed) {
-  return which == BodyPicture::Faces::All || exposed == (which == BodyPicture::Faces::Exposed);
-}
-
 // Their edges need no line to be seen.
 bool torn_by_cuts_alone(const Body& body) {
   const bool others = std::ranges::any_of(body.tear_laws, [](const TearLaw& law) {
@@ -44,16 +40,11 @@ bool torn_by_cuts_alone(const Body& body) {
   return !body.tear_laws.empty() && !others;
 }
 
-// Calls f(dart) for each corner of a face of a sheet, as its front is walked, from its smallest dart's on.
-template <class F> void for_each_corner_from_front(const EmbeddedMap& map, Slot face, F&& f) {
-  const Column<FaceSense>* sense = find_face_sense(map);
-  const Dart first = map.cells(FaceOfVolume).first_dart(face);
-  const Dart start = sense && (*sense)[face] != 0 ? map.map().alpha(1, first) : first;
-  Dart at = start;
-  do {
-    f(at);
-    at = map.map().alpha(1, map.map().alpha(0, at));
-  } while (at != start);
+// Those that are seen.
+LookTextures seen_of(LookTextures textures, const LookSettings& look, bool orientable) {
+  if (!shows_pictures(look)) return {};
+  if (!orientable) textures.back = nullptr; // what has one side has no back
+  return textures;
 }
 
 // The share of its largest extent from which on a sheet looks like a slab: two pixels of a picture that is 640
@@ -92,14 +83,11 @@ void check_parts(Body& body, const LookSettings& look) {
 
 } // namespace
 
-BodyPicture::BodyPicture(Body& body, LookSettings look, LookTextures textures)
+BodyPicture::BodyPicture(Body& body, LookSettings look, const LookTextures& textures)
     : body_(&body), look_(std::move(look)), solid_(body.map->dimension() == 3),
-      orientable_(solid_ || is_orientable(body.map->map())), scale_(look_.most.value_or(0)) {
+      orientable_(solid_ || is_orientable(body.map->map())),
+      texture_(body, look_, seen_of(textures, look_, orientable_)), scale_(look_.most.value_or(0)) {
   if (shows_thickness_of_mass(body, look_, textures)) look_.thickness = look_.mass_thickness;
-  const bool has_sides = look_.as == DrawStyle::Surface || look_.as == DrawStyle::Wires;
-  if (look_.by == ColourBy::Plain && has_sides) textures_ = std::move(textures);
-  if (const Texture* outside = textures_.leading()) map_.emplace(body, look_, outside->aspect());
-  if (const Texture* inside = textures_.leading_inside()) inside_map_.emplace(body, look_, inside->aspect());
   if (!solid_) body.boundary().sheet(); // that of a solid is there
   check_parts(body, look_);
   if (look_.as == DrawStyle::Darts && body.map->map().dart_count() > most_drawn_darts)
@@ -183,26 +171,20 @@ void BodyPicture::draw(std::vector<FrameBody>& out) {
 void BodyPicture::draw_as_it_is(std::vector<FrameBody>& out) {
   if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
   if (look_.thickness) return draw_thick_sheet(out);
-  FrameBody body = plain();
-  if (look_.as == DrawStyle::Darts)
-    draw_darts(*body_, body);
-  else if (look_.as == DrawStyle::Exploded)
-    draw_exploded(
-        *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, body);
-  else if (solid_)
-    draw_solid(body, shows_inside_apart() ? Faces::Outer : Faces::All);
-  else
-    draw_thin_sheet(body);
-  out.push_back(std::move(body));
-  if (!solid_ || !shows_inside_apart()) return;
-  FrameBody& inside = out.emplace_back(plain());
-  inside.finish = look_.finish_inside.value_or(look_.finish);
-  draw_solid(inside, Faces::Exposed);
-}
-
-bool BodyPicture::shows_inside_apart() const {
-  const bool as_surface = look_.as == DrawStyle::Surface || look_.as == DrawStyle::Wires;
-  return map_ || inside_map_ || (look_.finish_inside && as_surface);
+  if (look_.as == DrawStyle::Darts) return draw_darts(*body_, out.emplace_back(plain()));
+  if (look_.as == DrawStyle::Exploded)
+    return draw_exploded(
+        *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, out.emplace_back(plain()));
+  find_normals();
+  const auto draw = [&](DrawnFaces which) {
+    FrameBody& body = out.emplace_back(plain());
+    draw_faces(body, which, 0);
+    texture_.lay(body, which);
+  };
+  if (!solid_ || !(texture_.any() || look_.finish_inside)) return draw(DrawnFaces::All);
+  draw(DrawnFaces::Outer);
+  draw(DrawnFaces::Exposed);
+  out.back().finish = look_.finish_inside.value_or(look_.finish);
 }
 
 TornLine BodyPicture::torn_line() const {
@@ -222,25 +204,21 @@ Colour BodyPicture::colour_at(const CellCorner& at) const {
   return at.inner ? look_.inside : look_.colour;
 }
 
-void BodyPicture::find_sheet_normals() {
-  const Surface& sheet = body_->boundary().sheet();
-  sheet.normals(normals_);
-  if (!draws_edges(look_)) smooth_normals(sheet, body_->map->position().values(), normals_, normal_sums_);
-}
-
-void BodyPicture::draw_thin_sheet(FrameBody& out) {
-  find_sheet_normals();
-  draw_sheet(out, 0);
-  if (map_) lay_on_sheet(out);
+void BodyPicture::find_normals() {
+  Boundary& boundary = body_->boundary();
+  if (solid_) return boundary.solid().normals(normals_);
+  boundary.sheet().normals(normals_);
+  if (!draws_edges(look_))
+    smooth_normals(boundary.sheet(), body_->map->position().values(), normals_, normal_sums_);
 }
 
 void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
-  find_sheet_normals();
+  find_normals();
   const double half = *look_.thickness / 2;
   FrameBody front = plain(), back = plain(), rim = plain();
-  draw_sheet(front, half);
-  draw_sheet(back, -half);
-  if (map_) lay_on_sheet(front);
+  draw_faces(front, DrawnFaces::All, half);
+  draw_faces(back, DrawnFaces::All, -half);
+  texture_.lay(front, DrawnFaces::All);
   back.texture = front.texture;
   back.texture_points = front.texture_points;
   front.sides = SheetSides::Front;
@@ -256,7 +234,7 @@ void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
 
 // Of what the sheet is made of, where there is a picture on it: that of its back, or white.
 Colour BodyPicture::rim_colour(bool torn) const {
-  const Colour matter = textures_.front ? look_.back.value_or(Colour{255, 255, 255}) : look_.colour;
+  const Colour matter = texture_.covers_front() ? look_.back.value_or(Colour{255, 255, 255}) : look_.colour;
   if (!torn) return matter;
   if (look_.torn) return *look_.torn;
   Colour lighter = matter;
@@ -264,108 +242,38 @@ Colour BodyPicture::rim_colour(bool torn) const {
   return lighter;
 }
 
-void BodyPicture::draw_sheet(FrameBody& out, double raised) {
-  const Surface& sheet = body_->boundary().sheet();
-  out.corners.reserve(3 * sheet.triangles());
+void BodyPicture::draw_faces(FrameBody& out, DrawnFaces which, double raised) {
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  sheet.for_each_triangle([&](const BoundaryTriangle& triangle) {
-    const auto [a, b, c] = triangle.vertex;
-    const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
-    Colour colour = look_.colour;
-    if (look_.by == ColourBy::Fragment)
-      colour = fragment_colours_[labels_[triangle.first.value]];
-    std::array<LineKind, 3> lines = triangle.side;
-    if (look_.thickness) // the rim takes the place of the others
-      for (LineKind& line : lines) line = line == LineKind::Cell ? line : LineKind::Inner;
-    for (Slot v : triangle.vertex) {
-      const Vec3 normal = normal_on_side(normals_[v], flat);
+  const auto add = [&](const BoundaryTriangle& triangle, const std::array<LineKind, 3>& lines,
+                       auto&& normal_at) {
+    Colour colour = colour_at({triangle.first, triangle.vertex[0], triangle.exposed});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Slot v = triangle.vertex[k];
+      const Vec3 normal = normal_at(triangle.normal[k]);
       if (by_vertex) colour = vertex_colours_[v];
       out.corners.push_back(corner(Vec3(x[v].vec() + raised * normal), normal, colour, lines));
     }
-  });
-}
-
-void BodyPicture::lay_on_sheet(FrameBody& out) const {
-  const bool behind = textures_.back && orientable_; // what has one side has no back
-  out.texture = {textures_.front, behind ? textures_.back : nullptr, wrap(*map_), 1, textures_.roughness};
-  if (!out.texture.any()) return;
-  if (textures_.front && behind) // relative to the picture that the map is of
-    out.texture.back_height =
-        map_->is_spread() ? 1 : static_cast<float>(textures_.back->aspect() / textures_.front->aspect());
-  out.texture_points.reserve(out.corners.size());
-  if (map_->places()) return lay_by_coordinates(out);
-  const auto& rest = body_->map->rest().values();
-  body_->boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
-    const auto [a, b, c] = triangle.vertex;
-    const Vec3 p = rest[a].vec(), q = rest[b].vec(), r = rest[c].vec();
-    const TextureMap::Chart chart = map_->chart((p + q + r) / 3, (q - p).cross(r - p));
-    for (const Vec3& x : {p, q, r}) out.texture_points.push_back(map_->at(x, chart));
-  });
-}
-
-// The triangles of a face are a fan around its first corner (surface.h), in any order.
-void BodyPicture::lay_by_coordinates(FrameBody& out) const {
-  const EmbeddedMap& map = *body_->map;
-  std::vector<Dart> ring; // of a face
-  body_->boundary().sheet().for_each_triangle([&](const BoundaryTriangle& triangle) {
-    ring.clear();
-    for_each_corner_from_front(map, map.slot(FaceOfVolume, triangle.first), [&](Dart d) { ring.push_back(d); });
-    std::size_t second = 1; // corner of the triangle, in the ring
-    while (second + 2 < ring.size() && (map.vertex(ring[second]) != triangle.vertex[1] ||
-                                        map.vertex(ring[second + 1]) != triangle.vertex[2]))
-      ++second;
-    for (const std::size_t corner : {std::size_t{0}, second, second + 1})
-      out.texture_points.push_back(map_->at((*map_->places())[map.slot(VertexOfFace, ring[corner])]));
-  });
-}
-
-Wrap BodyPicture::wrap(const TextureMap& map) const {
-  return look_.wrap.value_or(map.is_spread_once() ? Wrap::Clamp : Wrap::Repeat);
-}
-
-void BodyPicture::draw_solid(FrameBody& out, Faces which) {
-  SolidSurface& surface = body_->boundary().solid();
-  if (which != Faces::Exposed) { // those are drawn after the others
-    surface.normals(normals_);
-    out.corners.reserve(3 * surface.triangles());
+  };
+  if (solid_) {
+    const SolidSurface& surface = body_->boundary().solid();
+    if (which != DrawnFaces::Exposed)
+      out.corners.reserve(3 * surface.triangles()); // those are drawn after the others
+    surface.for_each_triangle([&](const BoundaryTriangle& triangle) {
+      if (is_drawn(which, triangle.exposed))
+        add(triangle, triangle.side, [&](std::uint32_t n) { return normals_[n]; });
+    });
+    return;
   }
-  const bool by_vertex = !vertex_colours_.empty();
-  const auto& x = body_->map->position().values();
+  const Surface& surface = body_->boundary().sheet();
+  out.corners.reserve(3 * surface.triangles());
   surface.for_each_triangle([&](const BoundaryTriangle& triangle) {
-    if (!is_drawn(which, triangle.exposed)) return;
-    Colour colour = triangle.exposed ? look_.inside : look_.colour;
-    if (look_.by == ColourBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Slot v = triangle.vertex[k];
-      if (by_vertex) colour = vertex_colours_[v];
-      out.corners.push_back(corner(x[v], normals_[triangle.normal[k]], colour, triangle.side));
-    }
-  });
-  if (which != Faces::All) lay_on_solid(out, which);
-}
-
-// Face after face as draw_solid() goes through their triangles; those of one face are projected on one plane.
-void BodyPicture::lay_on_solid(FrameBody& out, Faces which) const {
-  const bool inside = which == Faces::Exposed;
-  const std::optional<TextureMap>& map = inside ? inside_map_ : map_;
-  if (!map) return;
-  out.texture = {inside ? textures_.inside : textures_.front, nullptr, wrap(*map), 1,
-                 inside ? textures_.roughness_inside : textures_.roughness};
-  out.texture_points.reserve(out.corners.size());
-  const auto& rest = body_->map->rest().values();
-  std::vector<Vec3> ring; // of a face [m]
-  body_->boundary().solid().for_each_face([&](const auto& face, const auto& corners) {
-    if (!is_drawn(which, face.exposed)) return;
-    ring.clear();
-    for (const auto& at : corners) ring.push_back(rest[at.vertex].vec());
-    Vec3 across = Vec3::Zero();
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-      across += (ring[k] - ring[0]).cross(ring[k + 1] - ring[0]);
-    const TextureMap::Chart chart = map->chart(ring[0], across);
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-      for (const std::size_t n : {std::size_t{0}, k, k + 1})
-        out.texture_points.push_back(map->at(ring[n], chart));
+    const auto [a, b, c] = triangle.vertex;
+    const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
+    std::array<LineKind, 3> lines = triangle.side;
+    if (look_.thickness) // the rim takes the place of the others
+      for (LineKind& line : lines) line = line == LineKind::Cell ? line : LineKind::Inner;
+    add(triangle, lines, [&](std::uint32_t n) { return normal_on_side(normals_[n], flat); });
   });
 }
 

@@ -10,9 +10,8 @@
 
 #include "render/draw/frame.h"
 #include "render/picture/exploded_picture.h"
+#include "render/picture/laid_texture.h"
 #include "render/picture/picture_settings.h"
-#include "render/picture/texture_file.h"
-#include "render/picture/texture_map.h"
 #include "render/picture/viewpoint.h"
 
 #include <map>
@@ -25,9 +24,8 @@ namespace rend {
 // How one body is shown.
 class BodyPicture {
 public:
-  enum class Faces { All, Outer, Exposed }; // of a solid
   // UserError: darts of a body that has too many to be drawn
-  BodyPicture(Body& body, LookSettings look, LookTextures textures);
+  BodyPicture(Body& body, LookSettings look, const LookTextures& textures);
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that have a colour
   // Appends the state that was observed to `out`: of a solid with textures or two finishes its outside and what
@@ -42,18 +40,11 @@ public:
 private:
   FrameBody plain() const;                         // without corners
   void draw_as_it_is(std::vector<FrameBody>& out); // with straight triangles
-  void draw_sheet(FrameBody& out, double raised);  // raised [m]: along the normals
-  void find_sheet_normals();
-  void draw_thin_sheet(FrameBody& out);
+  void find_normals();
+  // raised [m]: along the normals
+  void draw_faces(FrameBody& out, DrawnFaces which, double raised);
   void draw_thick_sheet(std::vector<FrameBody>& out);
   Colour rim_colour(bool torn) const;
-  void draw_solid(FrameBody& out, Faces which);
-  bool shows_inside_apart() const; // the faces that fracture exposes are a body of their own
-  Wrap wrap(const TextureMap& map) const;
-  // The places of what was drawn in its pictures.
-  void lay_on_sheet(FrameBody& out) const;
-  void lay_by_coordinates(FrameBody& out) const;
-  void lay_on_solid(FrameBody& out, Faces which) const;
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();
   TornLine torn_line() const;
@@ -61,9 +52,8 @@ private:
 
   Body* body_;
   LookSettings look_;
-  LookTextures textures_;                      // none where colours show something else, or no sides are drawn
-  std::optional<TextureMap> map_, inside_map_; // where they lie: those of its sides, and the one inside
   bool solid_ = false, orientable_ = true;
+  LaidTexture texture_;
   double scale_ = 0;          // the quantity at the end of the colours; what look_.most says, or seen so far
   std::vector<Vec3> normals_; // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
   std::vector<Vec3> normal_sums_;                       // scratch memory
