@@ -114,16 +114,23 @@ TexturePlace between(const TexturePlace& a, const TexturePlace& b, double t) {
   return {(1 - t) * a.u + t * b.u, (1 - t) * a.v + t * b.v};
 }
 
+// Applies a rule that divides an edge.
+Applied divide(const char* name, EmbeddedMap& map, Dart d, const RuleArguments& arguments, Counts& counts) {
+  const bool at_seam = Textured(map).at_seam(d);
+  Applied done = apply(rule(name), map, d, arguments);
+  if (!done.ok) return done;
+  ++counts.done;
+  ++counts.divided;
+  counts.at_seam += at_seam;
+  return done;
+}
+
 // An edge between triangles, at a share of its length; each side's new corner lies between that side's own.
 void divide_edge(EmbeddedMap& map, Dart d, double share, Counts& counts) {
   const Textured textured(map);
   const std::vector<TexturePlace> before = textured.of_all_darts();
-  const bool at_seam = textured.at_seam(d);
-  const Applied done = apply(rule("divide-edge-of-triangles"), map, d, {{"share", scalar_value(share)}});
+  const Applied done = divide("divide-edge-of-triangles", map, d, {{"share", scalar_value(share)}}, counts);
   if (!done.ok) return;
-  ++counts.done;
-  ++counts.divided;
-  counts.at_seam += at_seam;
   const std::vector<Dart> from = done.darts("a"), to = done.darts("A");
   for (std::size_t side = 0; side < from.size(); ++side) {
     const TexturePlace expected = between(before[from[side].value], before[to[side].value], share);
@@ -136,12 +143,8 @@ void divide_edge(EmbeddedMap& map, Dart d, double share, Counts& counts) {
 void insert_vertex(EmbeddedMap& map, Dart d, Counts& counts) {
   const Textured textured(map);
   const std::vector<TexturePlace> before = textured.of_all_darts();
-  const bool at_seam = textured.at_seam(d);
-  const Applied done = apply(rule("insert-vertex"), map, d, {});
+  const Applied done = divide("insert-vertex", map, d, {}, counts);
   if (!done.ok) return;
-  ++counts.done;
-  ++counts.divided;
-  counts.at_seam += at_seam;
   const std::vector<Dart> old = done.darts("a"), created = done.darts("c");
   for (std::size_t n = 0; n < old.size(); ++n) {
     const Dart far = map.map().alpha(0, map.map().alpha(1, created[n]));
