@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace rend {
@@ -43,13 +42,10 @@ struct ExportFormat {
   std::unique_ptr<Exporter> (*make)(const Scene& scene, const SkinPictures& pictures);
 };
 
-// ExportFormat::make of an exporter that takes the scene alone, and of one that takes pictures as well.
+// ExportFormat::make of an exporter.
 template <class Made>
 std::unique_ptr<Exporter> make_exporter(const Scene& scene, const SkinPictures& pictures) {
-  if constexpr (std::is_constructible_v<Made, const Scene&, const SkinPictures&>)
-    return std::make_unique<Made>(scene, pictures);
-  else
-    return std::make_unique<Made>(scene);
+  return std::make_unique<Made>(scene, pictures);
 }
 
 const std::vector<ExportFormat>& all_export_formats();

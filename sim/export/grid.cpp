@@ -61,8 +61,9 @@ GridCell grid_cell(ElementKind kind) {
 // Appends one body to the grid.
 class BodyCells {
 public:
-  BodyCells(const Body& body, std::int64_t number, const Sides& sides, Grid& grid)
-      : body_(body), map_(*body.map), number_(number), sides_(sides), grid_(grid) {}
+  // picture: of a sheet; null: it has none.
+  BodyCells(const Body& body, std::int64_t number, const Sides& sides, const SkinPicture* picture, Grid& grid)
+      : body_(body), map_(*body.map), number_(number), sides_(sides), picture_(picture), grid_(grid) {}
 
   void add_points(OnPoints& on);
   // `fragments`: the number in the bodies before; increased by those of this body.
@@ -80,9 +81,11 @@ private:
   const EmbeddedMap& map_;
   std::int64_t number_;
   const Sides& sides_;
+  const SkinPicture* picture_;
   Grid& grid_;
   std::vector<std::int64_t> point_; // of each vertex slot
   std::vector<Dart> elements_;      // the smallest dart of each appended cell
+  std::vector<Dart> ring_;          // scratch: the corners of a face
 };
 
 void BodyCells::add_points(OnPoints& on) {
@@ -143,9 +146,14 @@ void BodyCells::add_cell(Dart first) {
 void BodyCells::add_face(Dart first) {
   const GMap& map = map_.map();
   const Dart start = sides_.of_dart[first.value] == 1 ? first : map.alpha(0, first);
-  int sides = 0;
-  for (Dart at = start; at != start || sides == 0; at = map.follow(at, to_next_side), ++sides) add_corner(at);
-  close(sides == 3 ? GridCell::Triangle : sides == 4 ? GridCell::Quad : GridCell::Polygon);
+  ring_.clear();
+  for (Dart at = start; at != start || ring_.empty(); at = map.follow(at, to_next_side)) ring_.push_back(at);
+  if (picture_) { // cells before this one may have none
+    grid_.texture.resize(grid_.corners.size());
+    picture_->lay(ring_, false, grid_.texture);
+  }
+  for (const Dart d : ring_) add_corner(d);
+  close(ring_.size() == 3 ? GridCell::Triangle : ring_.size() == 4 ? GridCell::Quad : GridCell::Polygon);
 }
 
 void BodyCells::add_polyhedron(Dart first) {
@@ -220,9 +228,16 @@ void add_obstacle(const ObstacleSkin& obstacle, std::int64_t number, Grid& grid,
 
 } // namespace
 
-GridMaker::GridMaker(const Scene& scene) : scene_(&scene) {
+GridMaker::GridMaker(const Scene& scene, SkinPictures pictures)
+    : scene_(&scene), pictures_(std::move(pictures)) {
   for (const auto& body : scene.bodies())
     sides_.push_back(body->map->dimension() == 2 ? sides_of(body->map->map()) : Sides{});
+  for (std::size_t n = 0; n < sides_.size(); ++n) textured_ = textured_ || picture_of(n);
+}
+
+const SkinPicture* GridMaker::picture_of(std::size_t body) const {
+  if (pictures_.empty() || scene_->bodies()[body]->map->dimension() == 3) return nullptr;
+  return pictures_[body].outside.picture.empty() ? nullptr : &pictures_[body];
 }
 
 Grid GridMaker::grid() const {
@@ -232,13 +247,14 @@ Grid GridMaker::grid() const {
   OnCells on_cells;
   std::int64_t fragments = 0;
   for (std::size_t n = 0; n < sides_.size(); ++n) {
-    BodyCells cells(*scene_->bodies()[n], static_cast<std::int64_t>(n), sides_[n], grid);
+    BodyCells cells(*scene_->bodies()[n], static_cast<std::int64_t>(n), sides_[n], picture_of(n), grid);
     cells.add_points(on_points);
     cells.add_cells(on_cells, fragments);
   }
   auto number = static_cast<std::int64_t>(sides_.size());
   for (const ObstacleSkin& obstacle : obstacle_skins(scene_->world(), grid.time))
     add_obstacle(obstacle, number++, grid, on_points, on_cells);
+  if (textured_) grid.texture.resize(grid.corners.size());
   grid.on_points = {{"rest", 3, std::move(on_points.rest)}, {"velocity", 3, std::move(on_points.velocity)},
                     {"mass", 1, std::move(on_points.mass)}, {"vertex", 1, std::move(on_points.vertex)},
                     {"body", 1, std::move(on_points.body)}, {"prescribed", 1, std::move(on_points.prescribed)}};

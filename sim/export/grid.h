@@ -5,8 +5,12 @@
 // hexahedra stay hexahedra. Obstacles are further bodies of quads (obstacle_skin.h). Corners are in the order
 // of sim/mesh/cell_shapes.h (Gmsh's order), so that at rest every solid cell has positive volume; the faces of
 // an orientable sheet all have the same orientation, and keep it when they tear.
+//
+// Pictures lie on the cells of sheets. A solid has none here: its corners belong to volumes, and one where the
+// faces of a volume meet would lie in several places of a picture. (A skin has it.)
 #pragma once
 
+#include "sim/export/skin_picture.h"
 #include "sim/scene/scene.h"
 #include "sim/topology/orientation.h"
 
@@ -46,6 +50,10 @@ struct Grid {
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> face_ends; // one per cell: one past its last entry in `faces`; -1: not a polyhedron
 
+  // The place in the picture of each entry of `corners`; in cells without a picture its middle. Empty: no sheet
+  // has one.
+  std::vector<TexturePlace> texture;
+
   // On points: position at rest (of obstacles: at time 0) [m], velocity [m/s], mass [kg], vertex (its slot in
   // the body: constant until it is split), body (from 0), prescribed (bits 1, 2, 4: along x, y, z). Obstacles
   // have no mass.
@@ -60,12 +68,16 @@ struct Grid {
 // Makes grids of a scene's states, starting with the first.
 class GridMaker {
 public:
-  explicit GridMaker(const Scene& scene);
+  explicit GridMaker(const Scene& scene, SkinPictures pictures = {});
   Grid grid() const; // of the current state
 
 private:
+  const SkinPicture* picture_of(std::size_t body) const; // null: it has none here
+
   const Scene* scene_;
+  SkinPictures pictures_;
   std::vector<Sides> sides_; // of each body; empty for solids
+  bool textured_ = false;    // whether a sheet has a picture
 };
 
 } // namespace rend

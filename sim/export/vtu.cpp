@@ -8,9 +8,13 @@
 //
 // VTK numbers corners as Gmsh does, except for the wedge: the first triangle of vtkWedge is counter-clockwise
 // as seen from outside, that of all other cells as seen from inside.
+//
+// Where a sheet has a picture, points have texture coordinates (v up), which the file declares to be such
+// (TCoords), and points on a seam are split (seams.h). The format has no word for the picture itself.
 #include "sim/base/base64.h"
 #include "sim/export/format.h"
 #include "sim/export/grid.h"
+#include "sim/export/seams.h"
 
 #include <fmt/format.h>
 
@@ -41,8 +45,9 @@ public:
     text_ += base64(numbers) + "</DataArray>\n";
   }
 
-  void arrays(const char* element, const std::vector<GridArray>& all) {
-    line(fmt::format("<{}>", element));
+  // attributes: of the element, each after a blank.
+  void arrays(const char* element, const std::vector<GridArray>& all, const std::string& attributes = "") {
+    line(fmt::format("<{}{}>", element, attributes));
     for (const GridArray& one : all)
       std::visit([&](const auto& values) { array(one.name, one.components, values); }, one.values);
     line(fmt::format("</{}>", element));
@@ -80,15 +85,25 @@ void add_cells(Text& text, const Grid& grid) {
   text.line("</Cells>");
 }
 
+constexpr const char* texture_name = "TextureCoordinates";
+
+void add_texture_coordinates(Grid& grid) {
+  std::vector<double> places; // u v of each point
+  for (const TexturePlace& at : split_at_seams(grid)) places.insert(places.end(), {at.u, at.v});
+  grid.on_points.push_back({texture_name, 2, std::move(places)});
+}
+
 constexpr const char* head =
     R"(<VTKFile type="{}" version="1.0" byte_order="LittleEndian" header_type="UInt64">)";
 
 class VtuExporter final : public Exporter {
 public:
-  explicit VtuExporter(const Scene& scene) : maker_(scene) {}
+  VtuExporter(const Scene& scene, const SkinPictures& pictures) : maker_(scene, pictures) {}
 
   std::string state() const override {
-    const Grid grid = maker_.grid();
+    Grid grid = maker_.grid();
+    const bool textured = !grid.texture.empty();
+    if (textured) add_texture_coordinates(grid);
     Text text;
     text.line("<?xml version=\"1.0\"?>");
     text.line(fmt::format(fmt::runtime(head), "UnstructuredGrid"));
@@ -104,7 +119,7 @@ public:
     text.array("Points", 3, grid.points);
     text.line("</Points>");
     add_cells(text, grid);
-    text.arrays("PointData", grid.on_points);
+    text.arrays("PointData", grid.on_points, textured ? fmt::format(" TCoords=\"{}\"", texture_name) : "");
     text.arrays("CellData", grid.on_cells);
     text.line("</Piece>\n</UnstructuredGrid>\n</VTKFile>");
     return text.whole();

@@ -200,6 +200,84 @@ TEST_F(PictureOnSkin, is_on_points_of_ply_which_are_split_at_seams) {
     }
 }
 
+// The cells of one body, as faces of an .obj file have them.
+Json faces_of_body(const Json& vtu, int body) {
+  Json faces = Json::array();
+  for (std::size_t c = 0; c < vtu["cells"].size(); ++c) {
+    if (vtu["cell_data"]["body"][c] != body) continue;
+    Json face{{"points", Json::array()}, {"places", Json::array()}};
+    for (const Json& corner : vtu["cells"][c][1]) {
+      const auto p = corner.get<std::size_t>();
+      face["points"].push_back(vtu["points"][p]);
+      face["places"].push_back(vtu["point_data"]["TextureCoordinates"][p]);
+    }
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+// Of each face, the place of each of its points.
+std::multiset<std::map<std::vector<double>, std::vector<double>>> places_by_points(const Json& faces) {
+  std::multiset<std::map<std::vector<double>, std::vector<double>>> all;
+  for (const Json& face : faces) {
+    const auto points = face["points"].get<std::vector<std::vector<double>>>();
+    const auto places = face["places"].get<std::vector<std::vector<double>>>();
+    std::map<std::vector<double>, std::vector<double>> by_points;
+    for (std::size_t k = 0; k < points.size(); ++k) by_points[points[k]] = places[k];
+    all.insert(by_points);
+  }
+  return all;
+}
+
+// The volumes of a bar with the same picture have none.
+TEST_F(PictureOnSkin, is_on_points_of_vtu_in_sheets_which_are_split_at_seams_before_and_after_they_tear) {
+  place.write("strip.obj", strip);
+  const std::string look = R"(<look texture="pictures/wide one.png"/></body>)";
+  const std::string bodies = R"(<body name="bar"><bar cells="2 1 1" size="2 1 1"/><place translate="0 9 0"/>)" +
+                             std::string(matter) + look + R"(<body name="strip"><mesh file="strip.obj"/>)" +
+                             std::string(matter) +
+                             R"(<fix side="-x"/><drive side="+x" velocity="1 0 0"/>)"
+                             R"(<tear criterion="global-border" threshold="0.1"/>)" +
+                             look + R"(<world gravity="0 0 0"><sphere centre="0 0 9" radius="1"/></world>)";
+  run(bodies, "0,9", "vtu");
+  const std::string text = content(place.path() / "out/states/00000.vtu");
+  EXPECT_THAT(text, testing::HasSubstr(R"(<PointData TCoords="TextureCoordinates">)"));
+  const Json mesh = read("strip.obj");
+  const Json start = read("out/states/00000.vtu", "vtu_to_json.py");
+  EXPECT_EQ(places_by_points(faces_of_body(start, 1)), places_by_points(mesh["faces"]));
+  const Json torn = read("out/states/00009.vtu", "vtu_to_json.py");
+  EXPECT_EQ(places_of_faces(Json{{"faces", faces_of_body(torn, 1)}}), places_of_faces(mesh));
+  for (const Json* file : {&start, &torn}) {
+    const Json& on = (*file)["point_data"];
+    std::map<int, int> points, vertices; // of each body
+    std::set<std::pair<int, int>> seen;
+    for (std::size_t p = 0; p < on["body"].size(); ++p) {
+      const int body = on["body"][p], vertex = on["vertex"][p];
+      ++points[body];
+      vertices[body] += seen.insert({body, vertex}).second;
+      if (body != 1) {
+        EXPECT_EQ(on["TextureCoordinates"][p], Json({0.5, 0.5}));
+      }
+    }
+    EXPECT_EQ(points[0], 12);
+    EXPECT_EQ(points[0], vertices[0]);
+    EXPECT_EQ(points[2], vertices[2]);
+    if (file == &start) {
+      EXPECT_EQ(vertices[1], 10);
+      EXPECT_EQ(points[1], 12);
+    } else {
+      EXPECT_GT(vertices[1], 10) << "it is torn";
+    }
+  }
+}
+
+TEST_F(PictureOnSkin, is_not_on_points_of_vtu_where_solids_alone_have_one) {
+  run(R"(<body><bar cells="2 1 1" size="2 1 1"/>)" + std::string(matter) +
+          R"(<look texture="pictures/other.png"/></body>)",
+      "0", "vtu");
+  EXPECT_EQ(content(place.path() / "out/states/00000.vtu").find("TCoords"), std::string::npos);
+}
+
 TEST_F(PictureOnSkin, is_not_there_where_no_body_has_one) {
   place.write("strip.obj", strip);
   run(R"(<body><mesh file="strip.obj"/>)" + std::string(matter) + R"(<look back="#ffffff"/></body>)", "0");
