@@ -52,15 +52,13 @@ SkinPicture skin_picture_of(const Body& body, const LookSettings& look, const st
   picture.outside.colour = shares_of(look.colour);
   picture.exposed.colour = shares_of(look.inside);
   if (!shows_pictures(look)) return picture;
-  TextureFiles files;
-  const LookTextures textures = files.of(look);
   std::optional<TextureMap> outside, exposed;
-  if (textures.front) {
-    outside.emplace(body, look, textures.front->aspect());
+  if (!look.texture.empty()) {
+    outside.emplace(body, look, texture_aspect(look, "texture", look.texture));
     picture.outside.picture = relative_to(folder, look.folder / look.texture);
   }
-  if (textures.inside) {
-    exposed.emplace(body, look, textures.inside->aspect());
+  if (!look.texture_inside.empty()) {
+    exposed.emplace(body, look, texture_aspect(look, "texture-inside", look.texture_inside));
     picture.exposed.picture = relative_to(folder, look.folder / look.texture_inside);
   }
   picture.lay = [map = body.map.get(), outside, exposed](std::span<const Dart> corners, bool is_exposed,

@@ -47,15 +47,13 @@ void LaidTexture::lay_by_charts(const Layer& layer, FrameBody& out, DrawnFaces w
   const EmbeddedMap& map = *body_->map;
   const bool solid = map.dimension() == 3;
   const auto& rest = map.rest().values();
-  TextureMap::Chart chart; // of the last face of a solid
+  TextureMap::Chart chart; // of the last face
   body_->boundary().for_each_triangle([&](const BoundaryTriangle& triangle) {
     if (!is_drawn(which, triangle.exposed)) return;
     const auto [a, b, c] = triangle.vertex;
     const Vec3 p = rest[a].vec(), q = rest[b].vec(), r = rest[c].vec();
-    if (!solid)
-      chart = layer.map.chart((p + q + r) / 3, (q - p).cross(r - p));
-    else if (triangle.number == 0)
-      chart = layer.map.chart(p, rest_area_vector(map, corner_darts(map.map(), triangle)[0]));
+    if (!solid || triangle.number == 0) // those of a solid come face by face
+      chart = layer.map.chart((p + q + r) / 3, rest_area_vector(map, corner_darts(map.map(), triangle)[0]));
     for (const Vec3& x : {p, q, r}) out.texture_points.push_back(layer.map.at(x, chart));
   });
 }

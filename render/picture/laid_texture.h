@@ -1,8 +1,8 @@
 // The pictures on a body, as they lie on the triangles that are drawn of it: each corner has its place in one.
 //
 // Where a mesh has texture coordinates they are the place, found by the corner's dart. Otherwise it follows
-// from the rest position of the corner and the chart that its face lies in (texture_map.h): in a solid there is
-// one for the whole face; the two triangles of a quad of a sheet, which may be bent, have one each.
+// from the rest position of the corner and the chart that its face lies in (texture_map.h), one for the whole
+// face.
 #pragma once
 
 #include "render/draw/frame.h"

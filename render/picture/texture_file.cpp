@@ -43,10 +43,15 @@ void check_size(const LookSettings& look, const std::string& attribute, const st
                      "make it smaller: a video of 1280 x 720 shows no more of it than 2048 pixels across");
 }
 
+PictureInfo info_of(const LookSettings& look, const std::string& attribute, const std::string& file) {
+  const PictureInfo info = at_attribute(look, attribute, [&] { return picture_info(path_of(look, file)); });
+  check_size(look, attribute, file, info.width, info.height);
+  return info;
+}
+
 Image image_of(const LookSettings& look, const std::string& attribute, const std::string& file) {
   const std::filesystem::path path = path_of(look, file);
-  const PictureInfo info = at_attribute(look, attribute, [&] { return picture_info(path); });
-  check_size(look, attribute, file, info.width, info.height);
+  info_of(look, attribute, file);
   Image image = at_attribute(look, attribute, [&] { return read_picture(path); });
   check_size(look, attribute, file, image.width, image.height); // it may have been written anew meanwhile
   return image;
@@ -109,6 +114,11 @@ void check_use(const LookSettings& look) {
 }
 
 } // namespace
+
+double texture_aspect(const LookSettings& look, const std::string& attribute, const std::string& file) {
+  const PictureInfo info = info_of(look, attribute, file);
+  return static_cast<double>(info.width) / info.height;
+}
 
 void check_textures(const LookSettings& look, bool solid) {
   check_use(look);

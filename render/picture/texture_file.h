@@ -30,6 +30,9 @@ struct LookTextures {
 // on anything but the front of a sheet. NoInput: there is no such file.
 void check_textures(const LookSettings& look, bool solid);
 
+// Width / height of a picture that a look names, by its header alone. UserError: what it is refused for.
+double texture_aspect(const LookSettings& look, const std::string& attribute, const std::string& file);
+
 // Reads files once, for as long as it lives.
 class TextureFiles {
 public:
