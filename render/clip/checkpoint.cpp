@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view first_line = "rend checkpoint 2\n"; // with the format's version
+constexpr std::string_view first_line = "rend checkpoint 3\n"; // with the format's version
 
 using HeadNumbers = std::array<std::uint64_t, 2>; // key, next frame
 constexpr std::size_t head_size = first_line.size() + sizeof(HeadNumbers);

@@ -39,6 +39,7 @@ public:
     return body->contact_table.bodies[other.number];
   }
   std::size_t vertices() const { return body->vertices(); } // slots
+  bool solid() const { return body->map->dimension() == 3; }
   std::size_t bytes() const { return (faces ? faces->bytes() : 0) + bytes_of(held_); }
   bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
   // [1/kg] along x, y, z; 0: constrained, or free slot.

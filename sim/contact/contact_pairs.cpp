@@ -1,68 +1,29 @@
 #include "sim/contact/contact_pairs.h"
 
-#include "sim/base/archive.h"
-#include "sim/contact/box_tree.h"
 #include "sim/outside/obstacle.h"
-#include "sim/topology/count.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace rend {
 namespace {
 
-using Bounds = BoxTree::Box;
-
-// The bounding box of its motion in the step.
-Bounds around(const ContactBody& body, Slot v) {
-  return Bounds(body.from(v)).extend(body.position(v).vec());
-}
-
-Bounds around(const ContactBody& body, const ContactFaces::Triangle& triangle) {
-  Bounds box;
-  for (Slot v : triangle.vertex) box.extend(around(body, v));
-  return box;
-}
-
-Bounds grown(const Bounds& box, double by) {
-  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
-}
+constexpr double beside = ContactFragments::beside, deepest = ContactFragments::deepest;
 
 // By how much both may move until the vertex may be as deep behind the face of a solid as it is still seen: the
-// larger of two bounds. `off` [m]: from the nearest point of the face.
+// largest of the bounds above. `off` [m]: from the nearest point of the face.
 double clear_of_depth(const Vec3& off, const TriangleCorners& y) {
-  constexpr double deepest = ContactPairs::deepest;
   const Vec3 area = (y[1] - y[0]).cross(y[2] - y[0]);
-  double longest = 0;
-  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (y[k] - y[(k + 1) % 3]).norm());
-  const double by_size = (off.norm() - deepest * longest) / (1 + 2 * deepest);
+  double longest = 0; // [m²]
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (y[k] - y[(k + 1) % 3]).squaredNorm());
+  longest = std::sqrt(longest);
+  const double distance = off.norm(), by_size = (distance - deepest * longest) / (1 + 2 * deepest);
   if (longest == 0 || off.dot(area) < 0) return by_size;
-  return std::max(by_size, std::min(0.94 * off.norm(), area.norm() / (8 * longest)));
-}
-
-// ContactPair::clear; none: they do not meet before one of them has moved by half the skin. From their distance
-// at the end of the step, and their relative motion in it.
-std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBody& other,
-                                const ContactFaces::Triangle& triangle, double reach) {
-  const Vec3 x = body.position(v), moved = x - body.from(v);
-  TriangleCorners y;
-  double most = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    y[k] = other.position(triangle.vertex[k]);
-    most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
-  }
-  const Weights w = nearest_in_triangle(y, x);
-  const Vec3 off = x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2];
-  const double distance = off.norm();
-  if (!(distance <= reach + std::sqrt(most))) return {};
-  const double clear = distance - ContactPairs::beside * ContactPairs::thickness(body, other);
-  const bool solid = other.body->map->dimension() == 3;
-  return std::max(0.0, solid ? std::min(clear, clear_of_depth(off, y)) : clear);
-}
-
-bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
-  return std::find(triangle.vertex.begin(), triangle.vertex.end(), v) != triangle.vertex.end();
+  const double height = area.norm() / longest;
+  return std::max({by_size, std::min(0.94 * distance, height / 8), std::min(0.89 * distance, height / 6),
+                   std::min(0.70 * distance, height / 4)});
 }
 
 // [m], distance of a vertex from a triangle of the same body at rest.
@@ -75,261 +36,262 @@ double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triang
 
 } // namespace
 
-// All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex
-// are those of its own fragment, and are skipped as a whole.
-class ContactPairs::FaceTrees {
-public:
-  struct Face {
-    std::uint32_t body, fragment, triangle;
-  };
-  FaceTrees(std::vector<Face>&& faces, const Bodies& bodies, double margin) : faces_(std::move(faces)) {
-    std::stable_sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
-      return std::tie(a.body, a.fragment) < std::tie(b.body, b.fragment);
-    });
-    std::vector<Bounds> boxes, whole; // of the faces of a fragment, of each fragment
-    for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
-      boxes.clear();
-      for (; end < faces_.size() && faces_[end].body == faces_[begin].body &&
-             faces_[end].fragment == faces_[begin].fragment;
-           ++end) {
-        const ContactBody& body = *bodies[faces_[end].body];
-        boxes.push_back(grown(around(body, body.faces->triangles()[faces_[end].triangle]), margin));
-      }
-      first_.push_back(static_cast<std::uint32_t>(begin));
-      trees_.emplace_back(boxes);
-      whole.push_back(trees_.back().bounds());
-    }
-    fragments_ = BoxTree(whole);
-  }
-
-  // Calls f(face) for the faces whose boxes intersect this one, without the fragments for which skip(any face
-  // of it) is true.
-  template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
-    fragments_.each_in(box, [&](std::uint32_t n) {
-      if (skip(faces_[first_[n]])) return;
-      trees_[n].each_in(box, [&](std::uint32_t face) { f(faces_[first_[n] + face]); });
-    });
-  }
-
-private:
-  std::vector<Face> faces_;          // sorted by body and fragment
-  std::vector<BoxTree> trees_;       // one per fragment
-  std::vector<std::uint32_t> first_; // one per fragment: its first face
-  BoxTree fragments_;
-};
-
-void ContactPairs::list(const ContactBody& body, BodyEntry& of) const {
-  const EmbeddedMap& map = *body.body->map;
-  const std::vector<std::uint32_t> label = label_fragments(map.map());
-  of.vertices.clear();
-  of.vertex_fragment.clear();
-  of.face_fragment.clear();
-  of.several = false;
-  for (const ContactFaces::Triangle& triangle : body.faces->triangles()) {
-    of.vertices.insert(of.vertices.end(), triangle.vertex.begin(), triangle.vertex.end());
-    of.face_fragment.push_back(label[map.cells(FaceOfVolume).first_dart(triangle.face).value]);
-    of.several = of.several || of.face_fragment.back() != of.face_fragment.front();
-  }
-  std::sort(of.vertices.begin(), of.vertices.end());
-  of.vertices.erase(std::unique(of.vertices.begin(), of.vertices.end()), of.vertices.end());
-  for (Slot v : of.vertices) of.vertex_fragment.push_back(label[map.cells(Vertex).first_dart(v).value]);
-}
-
 const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
-  of_.resize(bodies.size());
-  bool changed = !listed_;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b]->settings().fragments || (listed_ && !bodies[b]->changed)) continue;
-    list(*bodies[b], of_[b]);
-    changed = true;
+  if (fragments_.update(bodies)) {
+    swept_.clear();
+    neighbours_.clear();
+    pool_.clear();
+    unused_ = 0;
   }
-  listed_ = true;
-  if (!anything(bodies)) {
-    pairs_.clear();
-  } else if (changed || listed_since_search() || measure_moves(bodies) > 0.25 * skin_ * skin_) {
-    search(bodies);
-    measure_moves(bodies);
+  pairs_.clear();
+  if (!fragments_.anything(bodies)) return pairs_;
+  fragments_.measure(bodies);
+  if (!all_within()) sweep(bodies);
+  note_near(bodies);
+  renew(bodies);
+  if (!due_.empty()) {
+    pack();
+    for (const std::size_t n : due_) search(bodies, neighbours_[n]);
+    found_.reserve(pairs());
+    pairs_.reserve(pairs());
   }
+  gather();
+  sort();
   return pairs_;
 }
 
-bool ContactPairs::anything(const Bodies& bodies) const {
-  const auto asks = [&](std::size_t b) { return bodies[b]->settings().fragments; };
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!asks(b)) continue;
-    if (of_[b].several || bodies[b]->settings().self) return true;
-    for (std::size_t c = b + 1; c < bodies.size(); ++c)
-      if (asks(c) && meet(*bodies[b], *bodies[c])) return true;
-  }
-  return false;
+bool ContactPairs::all_within() const {
+  if (swept_.size() != fragments_.all().size()) return false;
+  for (std::size_t f = 0; f < swept_.size(); ++f)
+    if (!swept_[f].contains(fragments_.all()[f].reach)) return false;
+  return true;
 }
 
-bool ContactPairs::listed_since_search() const {
-  return std::ranges::any_of(of_, [](const BodyEntry& of) { return of.there.size() != of.vertices.size(); });
-}
-
-// Relative to the mean of all, at the start of the step and at its end. The largest square at the end [m²].
-double ContactPairs::measure_moves(const Bodies& bodies) {
-  Vec3 mean_start = Vec3::Zero(), mean_end = Vec3::Zero();
-  std::size_t count = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const BodyEntry& of = of_[b];
-    for (std::size_t n = 0; n < of.vertices.size(); ++n) {
-      mean_start += bodies[b]->from(of.vertices[n]) - of.there[n];
-      mean_end += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
-    }
-    count += of.vertices.size();
+void ContactPairs::sweep(const Bodies& bodies) {
+  ++sweeps_;
+  const std::vector<Fragment>& all = fragments_.all();
+  swept_.clear();
+  for (const Fragment& each : all) {
+    const Vec3 way = steps_ahead * (each.end - each.start);
+    const double margin = std::max(2 * bodies[each.body]->settings().thickness, 0.25 * each.longest);
+    swept_.push_back(grown(each.reach.merged(each.reach.translated(way)), margin));
   }
-  if (count > 0) mean_start /= static_cast<double>(count);
-  if (count > 0) mean_end /= static_cast<double>(count);
-  double most = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    BodyEntry& of = of_[b];
-    if (of.vertices.empty()) continue;
-    of.moved.resize(bodies[b]->vertices());
-    for (std::size_t n = 0; n < of.vertices.size(); ++n) {
-      const Slot v = of.vertices[n];
-      const double start = (bodies[b]->from(v) - of.there[n] - mean_start).squaredNorm(),
-                   end = (bodies[b]->position(v).vec() - of.there[n] - mean_end).squaredNorm();
-      of.moved[v] = std::sqrt(std::max(start, end));
-      most = std::max(most, end);
-    }
-  }
-  return most;
-}
-
-void ContactPairs::search(const Bodies& bodies) {
-  ++searches_;
-  std::vector<FaceTrees::Face> faces;
-  double thickness = 0, sizes = 0;
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b]->settings().fragments) continue;
-    thickness = std::max(thickness, bodies[b]->settings().thickness);
-    const auto& triangles = bodies[b]->faces->triangles();
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      faces.push_back({b, of_[b].face_fragment[t], t});
-      sizes += around(*bodies[b], triangles[t]).diagonal().norm();
-    }
-  }
-  pairs_.clear();
-  if (faces.empty()) return;
-  skin_ = std::max(2 * thickness, 0.25 * sizes / static_cast<double>(faces.size()));
-  const FaceTrees trees(std::move(faces), bodies, skin_ + thickness);
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) search_for(bodies, b, trees, skin_ + thickness);
-}
-
-void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach) {
-  BodyEntry& of = of_[b];
-  of.there.clear();
-  for (std::size_t n = 0; n < of.vertices.size(); ++n) {
-    const Slot v = of.vertices[n];
-    of.there.push_back(bodies[b]->position(v));
-    const std::size_t begin = pairs_.size();
-    const auto passes = [&](const FaceTrees::Face& face) {
-      const bool own = face.body == b && face.fragment == of.vertex_fragment[n] && !bodies[b]->settings().self;
-      return own || !meet(*bodies[b], *bodies[face.body]);
-    };
-    trees.each_near(around(*bodies[b], v), passes, [&](const FaceTrees::Face& face) {
-      ContactPair pair{b, v, face.body, face.triangle};
-      const ContactFaces::Triangle& triangle = bodies[face.body]->faces->triangles()[face.triangle];
-      if (!allowed(bodies, n, pair)) return;
-      const auto clear = clearance(*bodies[b], v, *bodies[face.body], triangle, reach);
-      if (!clear || joined(bodies, n, pair)) return;
-      pair.clear = *clear;
-      pairs_.push_back(pair);
+  const BoxTree tree(swept_);
+  std::vector<Neighbours> before = std::move(neighbours_);
+  neighbours_.clear();
+  for (std::uint32_t a = 0; a < all.size(); ++a) {
+    const ContactBody& body = *bodies[all[a].body];
+    const std::size_t begin = neighbours_.size();
+    tree.each_in(swept_[a], [&](std::uint32_t b) {
+      const bool wanted = a < b || (a == b && body.settings().self);
+      if (wanted && ContactFragments::meet(body, *bodies[all[b].body])) neighbours_.push_back({a, b});
     });
-    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
-              [](const ContactPair& a, const ContactPair& other) {
-                return std::tie(a.face_body, a.triangle) < std::tie(other.face_body, other.triangle);
-              });
+    std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(begin), neighbours_.end(),
+              [](const Neighbours& x, const Neighbours& y) { return x.b < y.b; });
+  }
+  keep_lists(before);
+}
+
+// Those that are neighbours still.
+void ContactPairs::keep_lists(std::vector<Neighbours>& before) {
+  const auto order = [](const Neighbours& x) { return std::tie(x.a, x.b); };
+  auto now = neighbours_.begin();
+  for (Neighbours& each : before) {
+    while (now != neighbours_.end() && order(*now) < order(each)) ++now;
+    if (now != neighbours_.end() && order(*now) == order(each))
+      *now = each;
+    else
+      drop(each);
   }
 }
 
-bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) const {
-  const BodyEntry& of = of_[pair.body];
-  return pair.body == pair.face_body && of.vertex_fragment[entry] == of.face_fragment[pair.triangle];
-}
-
-bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const {
-  if (!same_fragment(entry, pair)) return true;
-  const ContactBody& body = *bodies[pair.body];
-  return body.settings().self && !is_corner(pair.vertex, body.faces->triangles()[pair.triangle]);
-}
-
-// Whether the pair is excluded because the material connects it; determines whether they are neighbours.
-bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
-  if (pair.body != pair.face_body) return false;
-  const ContactBody& body = *bodies[pair.body];
-  const double apart = apart_at_rest(body, pair.vertex, body.faces->triangles()[pair.triangle]);
-  pair.neighbours = apart <= body.settings().thickness;
-  return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
-}
-
-void ContactPair::store(Archive& archive) {
-  archive(body, vertex, face_body, triangle, neighbours, clear);
-}
-
-void ContactPairs::BodyEntry::store(Archive& archive, std::size_t most) {
-  constexpr const char* what = "contact is of more vertices or faces than the body has";
-  archive.list(vertices, most, what);
-  archive.list(vertex_fragment, most, what);
-  archive.list(face_fragment, most, what);
-  archive.list(there, most, what);
-  archive(several);
-}
-
-bool ContactPairs::BodyEntry::same_lists(const BodyEntry& other) const {
-  return vertices == other.vertices && vertex_fragment == other.vertex_fragment &&
-         face_fragment == other.face_fragment && several == other.several;
-}
-
-void ContactPairs::store(Archive& archive, const Bodies& bodies) {
-  std::uint64_t lists = of_.size(), pairs = pairs_.size();
-  archive(lists);
-  refuse_unless(lists == 0 || lists == bodies.size(), "contact is of more or fewer bodies");
-  of_.resize(lists);
-  for (std::size_t b = 0; b < of_.size(); ++b) {
-    of_[b].store(archive, bodies[b]->body->map->map().capacity());
-    if (!archive.reading()) continue;
-    BodyEntry now; // from the current map
-    if (bodies[b]->settings().fragments) list(*bodies[b], now);
-    refuse_unless(of_[b].same_lists(now), "contact is of other vertices or faces than the body has");
+// Which neighbours may touch in this step, which of them are to be searched, and which fragments are to be
+// renewed for that: the less they have moved when a list is made, the longer it holds.
+void ContactPairs::note_near(const Bodies& bodies) {
+  const std::vector<Fragment>& all = fragments_.all();
+  renewal_.assign(all.size(), Renewal::Alone);
+  due_.clear();
+  for (Neighbours& list : neighbours_) {
+    const Fragment &a = all[list.a], &b = all[list.b];
+    if (list.a != list.b && !a.reach.intersects(b.reach)) {
+      drop(list);
+      continue;
+    }
+    for (const std::uint32_t f : {list.a, list.b})
+      if (renewal_[f] == Renewal::Alone) renewal_[f] = Renewal::None;
+    if (list.searched && moved(list) <= list.skin) continue;
+    due_.push_back(static_cast<std::size_t>(&list - neighbours_.data()));
+    const double faces = (a.triangles_end - a.triangles) + (b.triangles_end - b.triangles);
+    // of solids half as much, for which depths are looked for as well
+    const double share = bodies[a.body]->solid() || bodies[b.body]->solid() ? 0.125 : 0.25;
+    list.skin = std::max(2 * thickness(*bodies[a.body], *bodies[b.body]), share * (a.edges + b.edges) / faces);
+    for (const std::uint32_t f : {list.a, list.b})
+      if (all[f].moved_at_end > list.skin / 16) renewal_[f] = Renewal::Due;
   }
-  archive(pairs);
-  if (archive.reading()) pairs_.clear();
-  for (std::size_t n = 0; n < pairs; ++n) {
-    archive(archive.reading() ? pairs_.emplace_back() : pairs_[n]);
-    if (archive.reading()) check_pair(bodies, n);
-  }
-  archive(skin_, listed_, searches_);
-  if (!archive.reading()) return;
-  refuse_unless(skin_ >= 0 && is_count(searches_), "contact was looked for nowhere, or less often than never");
-  refuse_unless(listed_ == !of_.empty(), "contact knows nothing of its bodies");
 }
 
-// Pairs are sorted, and their vertices and triangles exist.
-void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
-  const ContactPair& pair = pairs_[number];
-  refuse_unless(pair.body < of_.size() && pair.face_body < of_.size(),
-                "contact is between bodies that are not there");
-  const std::vector<Slot>& vertices = of_[pair.body].vertices;
-  refuse_unless(std::binary_search(vertices.begin(), vertices.end(), pair.vertex),
-                "contact is of a vertex that is not there");
-  refuse_unless(pair.triangle < bodies[pair.face_body]->faces->triangles().size(),
-                "contact is with a face that is not there");
-  refuse_unless(pair.clear >= 0 && std::isfinite(pair.clear),
-                "contact is of a vertex and a face at no possible distance");
-  const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
-  refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),
-                "contact is listed in disorder, or twice");
+void ContactPairs::renew(const Bodies& bodies) {
+  const std::vector<Fragment>& all = fragments_.all();
+  const auto lost = [&](std::uint32_t f) { return renewal_[f] == Renewal::Due ? all[f].moved_at_end : 0; };
+  if (!due_.empty())
+    for (Neighbours& list : neighbours_) list.before += lost(list.a) + lost(list.b);
+  for (std::uint32_t f = 0; f < all.size(); ++f) {
+    const bool turned = renewal_[f] == Renewal::Alone && all[f].moved_at_end > 0.125 * all[f].longest;
+    if (turned || renewal_[f] == Renewal::Due) fragments_.renew(bodies, f);
+  }
+}
+
+void ContactPairs::drop(Neighbours& list) {
+  unused_ += list.end - list.begin;
+  list.begin = list.end = 0;
+  list.searched = false;
+}
+
+// Puts the lists one after another, if half of the pool is unused.
+void ContactPairs::pack() {
+  if (2 * unused_ <= pool_.size()) return;
+  std::vector<Candidate> packed;
+  packed.reserve(pool_.size());
+  for (Neighbours& list : neighbours_) {
+    const auto from = pool_.begin();
+    const std::size_t begin = packed.size();
+    packed.insert(packed.end(), from + static_cast<std::ptrdiff_t>(list.begin),
+                  from + static_cast<std::ptrdiff_t>(list.end));
+    list.begin = begin;
+    list.end = packed.size();
+  }
+  pool_ = std::move(packed);
+  unused_ = 0;
+}
+
+double ContactPairs::apart(const Neighbours& list) const {
+  if (list.a == list.b) return list.before;
+  const Fragment &a = fragments_.all()[list.a], &b = fragments_.all()[list.b];
+  const double start = (a.start - b.start - list.between).squaredNorm(),
+               end = (a.end - b.end - list.between).squaredNorm();
+  return list.before + std::sqrt(std::max(start, end));
+}
+
+double ContactPairs::moved(const Neighbours& list) const {
+  return fragments_.all()[list.a].moved + fragments_.all()[list.b].moved + apart(list);
+}
+
+void ContactPairs::search(const Bodies& bodies, Neighbours& list) {
+  ++searches_;
+  drop(list);
+  const Fragment &a = fragments_.all()[list.a], &b = fragments_.all()[list.b];
+  list.searched = true;
+  list.before = a.moved_at_end + b.moved_at_end;
+  list.between = a.end - b.end;
+  list.begin = pool_.size();
+  search(bodies, list, a, b);
+  if (list.a != list.b) search(bodies, list, b, a);
+  list.end = pool_.size();
+  list.least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = list.begin; n < list.end; ++n) list.least = std::min(list.least, pool_[n].clear);
+}
+
+// For the vertices of one and the triangles of the other.
+void ContactPairs::search(const Bodies& bodies, const Neighbours& list, const Fragment& of,
+                          const Fragment& with) {
+  const double reach = list.skin + beside * thickness(*bodies[of.body], *bodies[with.body]);
+  const bool solid = bodies[with.body]->solid();
+  near_.clear();
+  boxes_.clear();
+  Box all;
+  for (std::uint32_t t = with.triangles; t < with.triangles_end; ++t) {
+    const Box box = fragments_.around(fragments_.triangle(t));
+    const double depth = (1 + 2 * deepest) * list.skin + deepest * box.diagonal().norm();
+    const Box wide = grown(box, solid ? std::max(reach, depth) : reach);
+    if (!wide.intersects(of.box)) continue;
+    near_.push_back(t);
+    boxes_.push_back(wide);
+    all.extend(wide);
+  }
+  if (near_.empty()) return;
+  const bool many = near_.size() > 24; // so that a tree is quicker
+  const BoxTree tree(many ? boxes_ : std::vector<Box>{});
+  for (std::uint32_t v = of.vertices; v < of.vertices_end; ++v) {
+    const Box box = fragments_.around(v);
+    if (!all.intersects(box)) continue;
+    const auto look = [&](std::uint32_t n) {
+      try_one(*bodies[of.body], *bodies[with.body], list, {v, near_[n]});
+    };
+    if (many) {
+      tree.each_in(box, look);
+      continue;
+    }
+    for (std::uint32_t n = 0; n < near_.size(); ++n)
+      if (boxes_[n].intersects(box)) look(n);
+  }
+}
+
+// Adds the two to the pool, unless they do not touch before they have moved by the skin, or in this step.
+void ContactPairs::try_one(const ContactBody& body, const ContactBody& other, const Neighbours& list,
+                           Candidate found) {
+  const ContactFragments::Triangle& triangle = fragments_.triangle(found.triangle);
+  const auto& corner = triangle.corner;
+  const bool self = list.a == list.b;
+  if (self && std::find(corner.begin(), corner.end(), found.vertex) != corner.end()) return;
+  const Vec3& x = fragments_.at(found.vertex);
+  const TriangleCorners y{fragments_.at(corner[0]), fragments_.at(corner[1]), fragments_.at(corner[2])};
+  const Weights w = nearest_in_triangle(y, x);
+  const Vec3 off = x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2];
+  found.clear = off.norm() - beside * thickness(body, other);
+  if (other.solid()) found.clear = std::min(found.clear, clear_of_depth(off, y));
+  const double moved = apart(list) + fragments_.moved(found.vertex) + fragments_.moved(triangle);
+  if (found.clear > std::max(list.skin, moved)) return;
+  if (&body == &other) {
+    const Slot v = fragments_.slot(found.vertex);
+    const double at_rest = apart_at_rest(body, v, body.faces->triangles()[triangle.number]);
+    found.neighbours = at_rest <= body.settings().thickness;
+    if (self && at_rest <= 2 * body.settings().thickness) return; // the material joins them
+  }
+  pool_.push_back(found);
+}
+
+void ContactPairs::gather() {
+  found_.clear();
+  const auto& all = fragments_.all();
+  for (const Neighbours& list : neighbours_) {
+    if (!list.searched || list.begin == list.end || list.least > moved(list)) continue;
+    const double moved_apart = apart(list);
+    const Fragment &a = all[list.a], &b = all[list.b];
+    for (std::size_t n = list.begin; n < list.end; ++n) {
+      const Candidate& each = pool_[n];
+      const ContactFragments::Triangle& triangle = fragments_.triangle(each.triangle);
+      if (each.clear > moved_apart + fragments_.moved(each.vertex) + fragments_.moved(triangle)) continue;
+      const bool of_a = each.vertex >= a.vertices && each.vertex < a.vertices_end;
+      found_.push_back({fragments_.rank(each.vertex),
+                        {.body = of_a ? a.body : b.body,
+                         .vertex = fragments_.slot(each.vertex),
+                         .face_body = of_a ? b.body : a.body,
+                         .triangle = triangle.number,
+                         .neighbours = each.neighbours}});
+    }
+  }
+}
+
+// By counting: each vertex has few.
+void ContactPairs::sort() {
+  begin_.assign(fragments_.vertices() + 2, 0);
+  for (const Found& each : found_) ++begin_[each.rank + 2];
+  for (std::size_t n = 2; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
+  pairs_.resize(found_.size());
+  for (const Found& each : found_) pairs_[begin_[each.rank + 1]++] = each.pair;
+  for (std::size_t n = 0; n + 1 < begin_.size(); ++n) {
+    const auto at = [&](std::size_t k) { return pairs_.begin() + static_cast<std::ptrdiff_t>(begin_[k]); };
+    if (begin_[n + 1] - begin_[n] < 2) continue;
+    std::sort(at(n), at(n + 1), [](const ContactPair& x, const ContactPair& y) {
+      return x.face_body != y.face_body ? x.face_body < y.face_body : x.triangle < y.triangle;
+    });
+  }
 }
 
 std::size_t ContactPairs::bytes() const {
-  std::size_t sum = bytes_of(pairs_);
-  for (const BodyEntry& of : of_)
-    sum += bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) +
-           bytes_of(of.there) + bytes_of(of.moved);
-  return sum;
+  return fragments_.bytes() + bytes_of(swept_) + bytes_of(neighbours_) + bytes_of(pool_) + bytes_of(due_) +
+         bytes_of(renewal_) + bytes_of(boxes_) + bytes_of(near_) + bytes_of(found_) + bytes_of(begin_) +
+         bytes_of(pairs_);
 }
 
 } // namespace rend

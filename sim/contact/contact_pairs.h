@@ -1,35 +1,41 @@
 // The broad phase of contact between bodies and fragments: which vertices may touch which faces in a step.
 //
-// Faces are triangles (contact_faces.h). Those of each fragment are in a tree of bounding boxes, and these
-// trees in a tree above, so that the query of a vertex skips the faces of its own fragment, which are most of
-// those near it (box_tree.h). Results are sorted, so that they do not depend on the order of a search.
-// (Bullet's btDbvt and FCL would be new dependencies, for single precision or for whole bodies.) The trees are
-// static; so pairs are searched with a margin (skin), and again when a vertex has moved by half of it relative
-// to the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. The pairs
-// always include all that touch, so results do not depend on when they were searched.
+// Faces are triangles (contact_faces.h), and lists of near ones are kept on two levels (Verlet's neighbour
+// lists, Phys. Rev. 159, 1967), so that what moves is searched where it is, and the rest is left alone:
 //
-// A pair that was searched at a distance d, and whose vertex and corners have moved by m_v and m_k since then,
-// relative to the mean of all, is at
+//   neighbours   pairs of fragments whose boxes, grown by a margin and by their motion in some steps to come,
+//                intersect; swept anew by a tree of these boxes (box_tree.h) when a fragment has left its own
+//   candidates   of two neighbours that may touch in this step, by their boxes of it (contact_fragments.h):
+//                pairs of vertex and triangle, searched with a margin (skin), and again when these two
+//                fragments have used it up; with `self` also those of a fragment and itself
 //
-//   d − m_v − max m_k
+// What has no neighbour costs one look at its vertices a step. A step is given the candidates that may touch
+// within it, sorted, so that they do not depend on the order of a search. They always include all that touch,
+// so results do not depend on when they were searched: nothing of this is stored in a checkpoint. (Bullet's
+// btDbvt and FCL would be new dependencies, for single precision or for whole bodies.)
 //
-// at least. A vertex touches a face from less than 1.5 thicknesses; from behind the face of a solid, at a depth
-// g of up to a fifth of √(2 area) (fragment_contact.h). A pair that is farther apart by that is passed over
-// without a look at its face. Of the depth two bounds are known, with M = m_v + max m_k:
+// A candidate that was searched at a distance d, whose vertex and corners have since then moved by m_v and m_k
+// relative to the means of their fragments, and these by D relative to each other, is at
 //
-//   g ≤ (e + 2 max m_k)/5          e: the longest edge at the search
-//   M ≥ 0.94 d, if M ≤ a/8         a: the smallest height of the triangle then; the vertex was in front
+//   d − M,   M = m_v + max m_k + D
 //
-// The second: let p' be the point of the face above the vertex x' = p' − g n', and p the same point of it at
-// the search. Heights above the plane of the search change by less than a/8, so its normal turns by less than
-// tan⁻¹ ⅓, and n'·(x − p) ≥ −|x − p|/3; hence M² ≥ |x − p + g n'|² ≥ r² − ⅔ g r + g² ≥ 8/9 r² with
-// r = |x − p| ≥ d.
+// at least. Moves of a fragment are known since it was renewed (contact_fragments.h); the largest one before
+// that is added to M, by the triangle inequality. A candidate is one that may touch while M is less than the
+// skin, or in the step of the search. A vertex touches a face from less than 1.5 thicknesses; from behind the
+// face of a solid, at a depth g of up to a fifth of √(2 area) (fragment_contact.h). Of the depth two bounds are
+// known:
+//
+//   g ≤ (e + 2 M)/5                e: the longest edge at the search
+//   M ≥ q d, if M ≤ a/p            a: the smallest height of the triangle then; the vertex was in front
+//
+// The second: let p' be the point of the face above the vertex x' = p' − g n', and y the same point of it at
+// the search. Heights above the plane of the search change by less than δ = a/p, so its normal turns by less
+// than tan⁻¹ s, s = 2δ/(a − 2δ) = 2/(p − 2), and n'·(x − y) ≥ −c r with r = |x − y| ≥ d and c = s/√(1 + s²);
+// hence M² ≥ |x − y + g n'|² ≥ r² − 2 c g r + g² ≥ (1 − c²) r², q = √(1 − c²) = 1/√(1 + s²). With p = 8, 6, 4:
+// s = 1/3, 1/2, 1 and q = 0.94, 0.89, 0.70.
 #pragma once
 
-#include "sim/contact/contact_body.h"
-
-#include <algorithm>
-#include <memory>
+#include "sim/contact/contact_fragments.h"
 
 namespace rend {
 
@@ -39,73 +45,81 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // closer than the thickness at rest
-  double clear = 0; // [m]: the two do not touch while their moves since the search, M, sum to less than this
-
-  void store(Archive& archive);
 };
 
 class ContactPairs {
 public:
-  using Bodies = std::vector<std::unique_ptr<ContactBody>>;
+  using Bodies = ContactBodies;
 
-  // The pairs of this step, sorted by body, vertex, body of the face, triangle. For bodies with contact of
-  // fragments: pairs of different bodies that do not exclude each other, and of different fragments, and with
-  // `self` also those within a fragment that are not neighbours.
+  // The pairs that may touch within this step, sorted by body, vertex, body of the face, triangle. For bodies
+  // with contact of fragments: pairs of different bodies that do not exclude each other, and of different
+  // fragments, and with `self` also those within a fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
-
-  // Whether a pair of the last find() is too far apart to touch within this step.
-  bool apart(const Bodies& bodies, const ContactPair& pair) const {
-    const auto& corner = bodies[pair.face_body]->faces->triangles()[pair.triangle].vertex;
-    const std::vector<double>& moved = of_[pair.face_body].moved;
-    const double most = std::max({moved[corner[0]], moved[corner[1]], moved[corner[2]]});
-    return pair.clear > of_[pair.body].moved[pair.vertex] + most;
-  }
-  static constexpr double beside = 1.5;  // distance in thicknesses at which a path misses a face
-  static constexpr double deepest = 0.2; // relative to a face's size: the largest penetration of a solid's face
 
   // The distance that two bodies keep [m].
   static double thickness(const ContactBody& a, const ContactBody& b) {
     return 0.5 * (a.settings().thickness + b.settings().thickness);
   }
-  long searches() const { return searches_; }
-  std::size_t pairs() const { return pairs_.size(); } // of the last search
+  void forget() { fragments_.forget(); } // all lists: the next step searches anew
+  long sweeps() const { return sweeps_; }
+  long searches() const { return searches_; }                  // of two neighbours, or of one with itself
+  std::size_t pairs() const { return pool_.size() - unused_; } // candidates of the last step
   std::size_t bytes() const;
-  void store(Archive& archive, const Bodies& bodies); // the faces must be those of the maps
 
 private:
-  class FaceTrees;
-  struct BodyEntry {                            // per body
-    std::vector<Slot> vertices;                 // of its faces, increasing
-    std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
-    std::vector<std::uint32_t> face_fragment;   // one per triangle
-    std::vector<Vec3> there; // [m], positions at the last search, one per entry of `vertices`
-    // [m], one per vertex slot, of those of its faces: how far it is from there within this step, at most,
-    // relative to the mean of all
-    std::vector<double> moved;
-    bool several = false; // more than one fragment
-
-    void store(Archive& archive, std::size_t most); // `most`: bound of the number of vertices or triangles
-    bool same_lists(const BodyEntry& other) const;  // without the positions
+  static constexpr double steps_ahead = 16; // of motion, in the boxes of a sweep
+  using Box = ContactFragments::Box;
+  using Fragment = ContactFragments::Fragment;
+  struct Candidate {
+    std::uint32_t vertex = 0, triangle = 0; // numbers of ContactFragments
+    double clear = 0;                       // [m]: the two do not touch while M is less than this
+    bool neighbours = false;
   };
-  void check_pair(const Bodies& bodies, std::size_t number) const; // throws ArchiveError
-  void list(const ContactBody& body, BodyEntry& of) const;
-  bool anything(const Bodies& bodies) const;
-  static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
-  bool listed_since_search() const;
-  double measure_moves(const Bodies& bodies);
-  void search(const Bodies& bodies);
-  // for the vertices of b
-  void search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach);
-  // entry: index of the vertex in Of::vertices
-  bool same_fragment(std::size_t entry, const ContactPair& pair) const;
-  bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
-  bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
+  struct Found {
+    std::uint32_t rank = 0; // of its vertex among all
+    ContactPair pair;
+  };
+  struct Neighbours {
+    std::uint32_t a = 0, b = 0;     // fragments, a < b; a = b: `self`
+    bool searched = false;          // and near ever since
+    std::size_t begin = 0, end = 0; // of their candidates in the pool
+    double skin = 0;                // [m]
+    double least = 0;               // [m]: `clear` of a candidate
+    double before = 0;              // [m], part of M: before their renewals
+    Vec3 between = Vec3::Zero();    // [m]: of their means at the search
+  };
 
-  std::vector<BodyEntry> of_;      // one per body
-  std::vector<ContactPair> pairs_; // of the last search, sorted
-  double skin_ = 0;                // [m]
-  bool listed_ = false;
-  long searches_ = 0;
+  // of the neighbours
+  void sweep(const Bodies& bodies);
+  bool all_within() const; // the boxes of the last sweep
+  void keep_lists(std::vector<Neighbours>& before);
+  void note_near(const Bodies& bodies);
+  void renew(const Bodies& bodies);
+  // of the candidates
+  void drop(Neighbours& list);
+  void pack();
+  double apart(const Neighbours& list) const; // [m]: M but for the moves of vertex and corners
+  double moved(const Neighbours& list) const; // [m]: M, at most
+  void search(const Bodies& bodies, Neighbours& list);
+  void search(const Bodies& bodies, const Neighbours& list, const Fragment& of, const Fragment& with);
+  void try_one(const ContactBody& body, const ContactBody& other, const Neighbours& list, Candidate found);
+  void gather();
+  void sort();
+
+  ContactFragments fragments_;
+  std::vector<Box> swept_;             // [m], one per fragment: what it has not left since the sweep
+  std::vector<Neighbours> neighbours_; // sorted by a, b
+  std::vector<Candidate> pool_;        // those of the same neighbours one after another
+  std::size_t unused_ = 0;             // in the pool
+  std::vector<std::size_t> due_;       // indices of neighbours that are to be searched in this step
+  enum class Renewal : std::uint8_t { Alone, None, Due };
+  std::vector<Renewal> renewal_;     // one per fragment; alone: near nothing
+  std::vector<Box> boxes_;           // [m], scratch: one per near triangle
+  std::vector<std::uint32_t> near_;  // scratch: numbers of near triangles
+  std::vector<Found> found_;         // of this step, in the order of the lists
+  std::vector<std::uint32_t> begin_; // scratch, one per rank of a vertex: where its pairs begin, and one more
+  std::vector<ContactPair> pairs_;   // of this step, sorted
+  long sweeps_ = 0, searches_ = 0;
 };
 
 } // namespace rend

@@ -65,12 +65,10 @@ bool Contacts::with_faces() const {
 
 void Contacts::store(Archive& archive) {
   archive.mark("contacts");
-  for (auto& body : bodies_) {
-    if (!body->faces) continue;
-    if (archive.reading()) body->faces->update();
-    archive(body->changed);
-  }
-  if (fragments_) fragments_->store(archive, bodies_);
+  if (!archive.reading()) return;
+  for (auto& body : bodies_)
+    if (body->faces) body->faces->update();
+  if (fragments_) fragments_->forget();
 }
 
 std::size_t Contacts::bytes() const {

@@ -28,7 +28,7 @@ public:
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
   bool with_faces() const; // some body can touch more than the floor, or there are spheres
   std::size_t bytes() const;
-  void store(Archive& archive); // after the bodies: the state of the pair search
+  void store(Archive& archive); // after the bodies: nothing but a mark, since pairs are found anew
 
 private:
   Contacts(World& world, const Scheme& scheme)

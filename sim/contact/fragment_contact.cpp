@@ -39,8 +39,8 @@ std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool so
   if (solid && size > 0 && (over(out.weight) || !known)) {
     out.normal = area / size;
     out.gap = out.normal.dot(way);
-    return out.gap > -std::max(thickness, ContactPairs::deepest * std::sqrt(size)) ? std::optional(out)
-                                                                                   : std::nullopt;
+    return out.gap > -std::max(thickness, ContactFragments::deepest * std::sqrt(size)) ? std::optional(out)
+                                                                                       : std::nullopt;
   }
   if (!known || (solid && way.dot(area) < 0)) return {};
   out.normal = way / distance;
@@ -58,7 +58,7 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
   const Vec3 x0 = body.from(pair.vertex), x1 = body.position(pair.vertex);
   const TriangleCorners y0{other.from(slots[0]), other.from(slots[1]), other.from(slots[2])};
   const TriangleCorners y1{other.position(slots[0]), other.position(slots[1]), other.position(slots[2])};
-  const bool solid = other.body->map->dimension() == 3;
+  const bool solid = other.solid();
   auto start = facing(x0, y0, solid, thickness);
   if (!start) return {};
   const double before = start->gap, after = start->normal.dot(x1 - at(y1, start->weight));
@@ -68,9 +68,10 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
     const Vec3 there = x0 + share * (x1 - x0);
     const Vec3 side = start->normal;
     start = facing(there, mixed(y0, y1, share), solid, thickness);
-    if (!start || start->gap > ContactPairs::beside * thickness || start->normal.dot(side) <= 0) return {};
+    if (!start || start->gap > ContactFragments::beside * thickness || start->normal.dot(side) <= 0) return {};
   }
   const double kept = before < 0 ? 0 : pair.neighbours ? std::min(thickness, before) : thickness;
+  if (start->normal.dot(x1 - at(y1, start->weight)) >= kept) return {}; // as most that are packed
   const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
   const Vec3 normal = start->normal;
   return ContactConstraint{.a = ContactSide::of(vertex, vertex.held(normal)),
@@ -83,10 +84,8 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
 }
 
 void FragmentContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
-  for (const ContactPair& pair : pairs_.find(bodies)) {
-    if (pairs_.apart(bodies, pair)) continue;
+  for (const ContactPair& pair : pairs_.find(bodies))
     if (const auto found = touch(bodies, pair)) answer.add(*found);
-  }
 }
 
 } // namespace rend

@@ -26,8 +26,9 @@ public:
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
   long searches() const { return pairs_.searches(); }
+  long sweeps() const { return pairs_.sweeps(); }
   std::size_t pairs() const { return pairs_.pairs(); } // candidates in the last step
-  void store(Archive& archive, const ContactPairs::Bodies& bodies) { pairs_.store(archive, bodies); }
+  void forget() { pairs_.forget(); }                   // after a state was read: pairs are searched anew
   std::size_t bytes() const { return pairs_.bytes(); }
 
   // Of one pair, whether or not it was found; none: nothing touches in this step.

@@ -131,7 +131,7 @@ TEST(ContactNames, bodies_that_exclude_each_other_pass_and_are_not_searched_for_
 TEST(ContactNames, what_is_excluded_has_no_pairs_beside_what_is_not) {
   const auto pairs = [](const std::string& contact_of_b) {
     const auto scene = presets::load("<scene>" + sheet("a", "0 0 0", R"(<contact with="fragments"/>)") +
-                                     sheet("b", "0 0 0.005", contact_of_b) +
+                                     sheet("b", "0 0 0.0025", contact_of_b) +
                                      sheet("c", "5 0 0", R"(<contact with="fragments"/>)") +
                                      R"(<world gravity="0 0 0"/>)" + time_of("symplectic"));
     scene->step();

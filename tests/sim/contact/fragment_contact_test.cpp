@@ -2,6 +2,7 @@
 // they were separated.
 #include "sim/contact/fragment_contact.h"
 
+#include "sim/base/archive.h"
 #include "sim/presets.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
@@ -199,6 +200,36 @@ TEST(FragmentContact, costs_nothing_before_there_are_fragments) {
   bodies.push_back(std::make_unique<ContactBody>(scene.body(), ContactIn::Result));
   EXPECT_TRUE(pairs.find(bodies).empty());
   EXPECT_EQ(pairs.searches(), 0);
+}
+
+// Pairs are not stored, but found again.
+TEST(FragmentContact, a_run_that_is_resumed_is_the_same) {
+  const auto made = [] {
+    return presets::load(
+        "<scene>" + moving("a", sheet(R"(translate="0 0 0.1")"), "0.3 0 -3", fragments) +
+        moving("b", sheet(R"(rotate="0 0 5" translate="0.03 -0.02 0")", "7 9"), "0 0 0", fragments) +
+        weightless);
+  };
+  const auto whole = made();
+  for (int n = 0; n < 200; ++n) {
+    whole->step();
+    if (n % 40 != 0) continue;
+    Archive written;
+    whole->store(written);
+    Archive read(std::span<const std::uint8_t>(written.bytes()));
+    const auto resumed = made(), other = made();
+    resumed->store(read);
+    Archive again;
+    resumed->store(again);
+    EXPECT_EQ(written.bytes(), again.bytes()) << n;
+    for (int k = 0; k <= n; ++k) other->step();
+    for (int k = 0; k < 60; ++k) {
+      resumed->step();
+      other->step();
+      ASSERT_EQ(resumed->hash(), other->hash()) << n << ", then " << k;
+    }
+  }
+  EXPECT_GT(whole->contacts()->fragments()->pairs(), 0u);
 }
 
 TEST(FragmentContact, a_block_rests_on_a_sheet_that_is_held_along_its_fall) {

@@ -34,7 +34,7 @@ std::string refused(Scene& scene, const std::vector<std::uint8_t>& bytes) try {
 
 // Offsets of the fields of a stored scene of one body, in the order of Scene::store and what it calls.
 struct Layout {
-  std::size_t scene = 0, links = 0, free_darts = 0, body = 0, contacts = 0, guard = 0;
+  std::size_t scene = 0, links = 0, free_darts = 0, body = 0, guard = 0;
   std::map<int, std::size_t> slots, first, free; // of orbits, by mask; slots: four bytes for each dart
   std::map<std::string, std::size_t> columns;    // values of columns
 
@@ -64,7 +64,6 @@ struct Layout {
     }
     body = at_;
     guard = after("guard");
-    contacts = after("contacts");
   }
 
 private:
@@ -253,36 +252,6 @@ TEST(ForgedStore, the_guard_goes_back_to_a_start_that_there_is) {
   EXPECT_THAT(genuine.with(aside, std::uint8_t{2}), HasSubstr("neither yes nor no"));
   EXPECT_THAT(genuine.with(state - 8, 2ULL), HasSubstr("number of bodies"));
   EXPECT_THAT(genuine.with(state, genuine.map().cells(Vertex).slots() + 1), HasSubstr("more vertices"));
-}
-
-// Two sheets, one on top of the other, and a sphere.
-TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
-  const std::string xml =
-      stored_scene_xml(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
-                                      <springs><stretch k="60"/></springs>
-                                      <tear criterion="global-border" threshold="0.001" max-per-step="1"/>
-                                      <contact with="obstacles fragments" thickness="0.01"/>)",
-                       R"(<world gravity="0 0 -9.81"><sphere centre="0.5 0.5 -0.12" radius="0.1"/></world>
-                                      <time step="1e-3" integrator="symplectic" duration="1"/>)");
-  const StoredScene genuine(xml, 150);
-  const std::size_t changed = genuine.layout().contacts, lists = changed + 1, vertices = lists + 8;
-  ASSERT_EQ(genuine.there<std::uint64_t>(lists), 1u);
-  const std::uint64_t count = genuine.there<std::uint64_t>(vertices);
-  EXPECT_THAT(genuine.with(changed, std::uint8_t{7}), HasSubstr("neither yes nor no"));
-  EXPECT_THAT(genuine.with(lists, 2ULL), HasSubstr("more or fewer bodies"));
-  EXPECT_THAT(genuine.with(vertices + 8, 1U << 31U), HasSubstr("other vertices or faces"));
-  EXPECT_THAT(genuine.with(vertices, 1ULL << 60U), HasSubstr("longer than"));
-  EXPECT_THAT(genuine.with(vertices, genuine.map().map().capacity() + 1), HasSubstr("more vertices or faces"));
-  std::size_t at = vertices + 8 + 4 * count;
-  for (const std::size_t each : {4, 4, 24}) at += 8 + each * genuine.there<std::uint64_t>(at);
-  const std::size_t pairs = at + 1, pair = pairs + 8;
-  ASSERT_GT(genuine.there<std::uint64_t>(pairs), 1u) << "fragments are near each other";
-  EXPECT_THAT(genuine.with(pair, 1U), HasSubstr("bodies that are not there"));
-  EXPECT_THAT(genuine.with(pair + 4, 1U << 31U), HasSubstr("vertex that is not there"));
-  EXPECT_THAT(genuine.with(pair + 8, 9U), HasSubstr("bodies that are not there"));
-  EXPECT_THAT(genuine.with(pair + 12, 1U << 31U), HasSubstr("face that is not there"));
-  EXPECT_THAT(genuine.with(pair + 17, -1.0), HasSubstr("no possible distance"));
-  EXPECT_THAT(genuine.with(pair + 25 + 4, genuine.there<Slot>(pair + 4) - 1), testing::Not(""));
 }
 
 TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {

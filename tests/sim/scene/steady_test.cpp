@@ -25,7 +25,7 @@ struct Events {
   bool operator==(const Events&) const = default;
   static Events of(const Scene& scene, long tried) {
     const FragmentContact* fragments = scene.contacts() ? scene.contacts()->fragments() : nullptr;
-    return {tried, scene.guard().rejected, fragments ? fragments->searches() : 0};
+    return {tried, scene.guard().rejected, fragments ? fragments->searches() + fragments->sweeps() : 0};
   }
 };
 
