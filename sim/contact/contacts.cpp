@@ -18,6 +18,7 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
   for (const auto& body : contacts->bodies_)
     if (body->settings().fragments && !contacts->fragments_)
       contacts->fragments_ = std::make_unique<FragmentContact>();
+  if (EdgeContact::is_asked_for(contacts->bodies_)) contacts->edges_ = std::make_unique<EdgeContact>();
   for (const auto& body : contacts->bodies_) body->body->drifts_always = scheme.contact == ContactIn::Step;
   if (contacts->bodies_.empty() && world.spheres.empty()) return {};
   return contacts;
@@ -56,6 +57,7 @@ void Contacts::end_step(double time, double step) {
 void Contacts::detect() {
   answer_.begin();
   if (fragments_) fragments_->detect(bodies_, answer_);
+  if (edges_) edges_->detect(bodies_, answer_);
   obstacles_.detect(bodies_, answer_);
 }
 
@@ -72,7 +74,8 @@ void Contacts::store(Archive& archive) {
 }
 
 std::size_t Contacts::bytes() const {
-  std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0);
+  std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0) +
+                    (edges_ ? edges_->bytes() : 0);
   for (const auto& body : bodies_) sum += body->bytes();
   return sum;
 }

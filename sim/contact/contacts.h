@@ -1,6 +1,7 @@
 // All contacts of a scene, at the end of each step, after every body has been advanced by itself:
 //
-//   detect       floor, spheres and boxes (obstacle_contact.h), bodies and fragments (fragment_contact.h)
+//   detect       floor, spheres and boxes (obstacle_contact.h), bodies and fragments (fragment_contact.h,
+//                edge_contact.h)
 //   constraints  of one kind (contact_constraint.h)
 //   answer       by impulses, all at once (contact_answer.h)
 //
@@ -10,6 +11,7 @@
 // Prescribed vertices take no impulse: their supports do.
 #pragma once
 
+#include "sim/contact/edge_contact.h"
 #include "sim/contact/fragment_contact.h"
 #include "sim/contact/obstacle_contact.h"
 
@@ -26,6 +28,7 @@ public:
 
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
+  const EdgeContact* edges() const { return edges_.get(); }             // null: edges of none can touch
   bool with_faces() const; // some body can touch more than the floor, or there are spheres
   std::size_t bytes() const;
   void store(Archive& archive); // after the bodies: nothing but a mark, since pairs are found anew
@@ -40,6 +43,7 @@ private:
   ContactIn in_;
   std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
   std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
+  std::unique_ptr<EdgeContact> edges_;               // null: no two bodies can touch, and none itself
   ObstacleContact obstacles_;
   ContactAnswer answer_;
 };

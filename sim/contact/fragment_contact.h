@@ -11,9 +11,9 @@
 // rest, if it is less than at the start of the step. (Fragments coincide right after a separation.) Coincident
 // points of sheets have no side yet and pass until they have one.
 //
-// Two bodies use the mean of their thicknesses, and the terms of contact_table.h. Limits: no edge-edge contacts
-// (visible if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of
-// its size is not seen.
+// Two bodies use the mean of their thicknesses, and the terms of contact_table.h. Limits: edges of fragments of
+// one body have no contact with each other (visible if cells are much larger than the thickness; those of
+// different bodies: edge_contact.h); what is deeper below a solid's face than a fifth of its size is not seen.
 #pragma once
 
 #include "sim/contact/contact_answer.h"

@@ -1,0 +1,305 @@
+#include "sim/contact/edge_contact.h"
+
+#include "sim/contact/box_tree.h"
+#include "sim/topology/count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace rend {
+namespace {
+
+constexpr double flat_edge = 0.985;  // the cosine between the normals of two faces from which an edge is none
+constexpr double same_point = 1e-10; // relative to the thickness and the lengths of the edges
+constexpr double parallel_edges = 1e-6; // the square of the sine between edges below which they are
+
+using Segment = std::array<Vec3, 2>;
+
+Vec3 point_at(const Segment& x, double share) {
+  return x[0] + share * (x[1] - x[0]);
+}
+
+Segment segment_between(const Segment& a, const Segment& b, double share) {
+  return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
+
+// The nearest points of two segments, as shares of the way along each, if both lie between the ends (Ericson,
+// Real-Time Collision Detection, 5.1.9).
+std::optional<std::array<double, 2>> nearest_within(const Segment& p, const Segment& q) {
+  const Vec3 u = p[1] - p[0], v = q[1] - q[0], r = p[0] - q[0];
+  const double a = u.squaredNorm(), b = u.dot(v), c = v.squaredNorm(), d = u.dot(r), e = v.dot(r);
+  const double across = a * c - b * b;
+  if (!(across > parallel_edges * a * c)) return {};
+  const double s = (b * e - c * d) / across, t = (a * e - b * d) / across;
+  if (!(s > 0 && s < 1 && t > 0 && t < 1)) return {};
+  return std::array{s, t};
+}
+
+// At rest, where segments may be parallel: the least distance of an end from the other segment then.
+double segment_distance(const Segment& p, const Segment& q) {
+  if (const auto shares = nearest_within(p, q))
+    return (point_at(p, (*shares)[0]) - point_at(q, (*shares)[1])).norm();
+  const auto from = [](const Vec3& x, const Segment& y) {
+    const Vec3 way = y[1] - y[0];
+    const double length = way.squaredNorm();
+    return (x - point_at(y, length > 0 ? std::clamp(way.dot(x - y[0]) / length, 0.0, 1.0) : 0)).norm();
+  };
+  return std::min({from(p[0], q), from(p[1], q), from(q[0], p), from(q[1], p)});
+}
+
+BoxTree::Box span_of(const ContactBody& body, const std::array<Slot, 2>& end) {
+  BoxTree::Box box;
+  for (const Slot v : end) box.extend(body.from(v)).extend(body.position(v).vec());
+  return box;
+}
+
+BoxTree::Box widened(const BoxTree::Box& box, double by) {
+  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
+}
+
+Vec3 rest_normal(const EmbeddedMap& map, std::span<const Slot> ring) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+    sum += (map.rest()[ring[k]].vec() - map.rest()[ring[0]].vec())
+               .cross(map.rest()[ring[k + 1]].vec() - map.rest()[ring[0]].vec());
+  return sum.normalized();
+}
+
+bool is_solid(const ContactBody& body) {
+  return body.body->map->dimension() == 3;
+}
+
+} // namespace
+
+// The edges of each body in a tree of their own, and those trees in one, so that an edge's own body is skipped
+// as a whole.
+class EdgeContact::Trees {
+public:
+  // boxes: one per edge of each body.
+  explicit Trees(const std::vector<std::vector<BoxTree::Box>>& boxes) {
+    std::vector<BoxTree::Box> whole;
+    for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+      if (boxes[b].empty()) continue;
+      bodies_.push_back(b);
+      trees_.emplace_back(boxes[b]);
+      whole.push_back(trees_.back().bounds());
+    }
+    top_ = BoxTree(whole);
+  }
+  // Calls f(body, edge) for those whose boxes intersect this one, of the bodies for which skip(body) is false.
+  template <class Skip, class F> void each_near(const BoxTree::Box& box, const Skip& skip, const F& f) const {
+    top_.each_in(box, [&](std::uint32_t n) {
+      if (skip(bodies_[n])) return;
+      trees_[n].each_in(box, [&](std::uint32_t edge) { f(bodies_[n], edge); });
+    });
+  }
+
+private:
+  std::vector<std::uint32_t> bodies_; // one per tree
+  std::vector<BoxTree> trees_;
+  BoxTree top_;
+};
+
+bool EdgeContact::is_asked_for(const ContactPairs::Bodies& bodies) {
+  const auto asks = [](const ContactBody& body) { return body.settings().fragments; };
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    if (!asks(*bodies[a])) continue;
+    if (bodies[a]->settings().self) return true;
+    for (std::size_t b = a + 1; b < bodies.size(); ++b)
+      if (asks(*bodies[b]) && !bodies[a]->terms(*bodies[b]).excluded) return true;
+  }
+  return false;
+}
+
+// Sorted by their ends.
+void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const {
+  const EmbeddedMap& map = *body.body->map;
+  const std::vector<std::uint32_t> label = label_fragments(map.map());
+  struct FoundEdge {
+    Edge edge;
+    Vec3 normal;
+    bool again = false, sharp = true;
+  };
+  std::map<std::array<Slot, 2>, FoundEdge> found;
+  body.body->boundary().for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
+    const Vec3 normal = rest_normal(map, ring);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Slot a = ring[k], b = ring[(k + 1) % ring.size()], beyond = ring[(k + 2) % ring.size()];
+      const auto [at, added] = found.try_emplace({std::min(a, b), std::max(a, b)});
+      FoundEdge& known = at->second;
+      if (added) {
+        known.edge = {{a, b}, {beyond, beyond}, label[face.first.value]};
+        known.normal = normal;
+        continue;
+      }
+      known.edge.beyond[1] = beyond;
+      known.sharp = known.again || known.normal.dot(normal) < flat_edge;
+      known.again = true;
+    }
+  });
+  edges.clear();
+  const bool solid = is_solid(body);
+  for (const auto& [ends, known] : found)
+    if (!solid || known.sharp) edges.push_back(known.edge);
+}
+
+bool EdgeContact::has_moved(const ContactPairs::Bodies& bodies) const {
+  Vec3 mean = Vec3::Zero();
+  std::size_t count = 0;
+  const auto each = [&](const auto& f) {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (std::size_t n = 0; n < there_[b].size(); ++n) {
+        const Slot v = edges_[b][n / 2].end[n % 2];
+        f(Vec3(bodies[b]->position(v).vec() - there_[b][n]));
+      }
+  };
+  each([&](const Vec3& moved) { mean += moved, ++count; });
+  if (count > 0) mean /= static_cast<double>(count);
+  double most = 0;
+  each([&](const Vec3& moved) { most = std::max(most, (moved - mean).squaredNorm()); });
+  return most > 0.25 * skin_ * skin_;
+}
+
+void EdgeContact::search(const ContactPairs::Bodies& bodies) {
+  ++searches_;
+  searched_ = true;
+  pairs_.clear();
+  double thickness = 0, lengths = 0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    there_[b].clear();
+    thickness = std::max(thickness, bodies[b]->settings().thickness);
+    for (const Edge& edge : edges_[b]) {
+      for (const Slot v : edge.end) there_[b].push_back(bodies[b]->position(v));
+      lengths += (there_[b].back() - there_[b][there_[b].size() - 2]).norm();
+      ++count;
+    }
+  }
+  if (count == 0) return;
+  skin_ = std::max(2 * thickness, 0.25 * lengths / static_cast<double>(count));
+  const double reach = skin_ + thickness;
+  std::vector<std::vector<BoxTree::Box>> boxes(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (const Edge& edge : edges_[b]) boxes[b].push_back(widened(span_of(*bodies[b], edge.end), reach));
+  const Trees trees(boxes);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) add_pairs(bodies, b, trees, reach);
+}
+
+// Each pair once: the smaller body and edge first.
+void EdgeContact::add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t body, const Trees& trees,
+                            double reach) {
+  const ContactBody& own = *bodies[body];
+  const auto passes = [&](std::uint32_t other) {
+    return other < body || (other == body && !own.settings().self) || own.terms(*bodies[other]).excluded;
+  };
+  for (std::uint32_t n = 0; n < edges_[body].size(); ++n) {
+    const BoxTree::Box box = span_of(own, edges_[body][n].end);
+    const std::size_t begin = pairs_.size();
+    trees.each_near(box, passes, [&](std::uint32_t other_body, std::uint32_t other) {
+      const Pair pair{body, n, other_body, other};
+      if (other_body == body && (other <= n || joined(own, edges_[body][n], edges_[body][other]))) return;
+      const BoxTree::Box there = span_of(*bodies[other_body], edges_[other_body][other].end);
+      if (box.squaredExteriorDistance(there) <= reach * reach) pairs_.push_back(pair);
+    });
+    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
+              [](const Pair& a, const Pair& b) {
+                return std::tie(a.other_body, a.other_edge) < std::tie(b.other_body, b.other_edge);
+              });
+  }
+}
+
+// Whether the material connects two edges of a body, or has torn between them.
+bool EdgeContact::joined(const ContactBody& body, const Edge& a, const Edge& b) {
+  if (a.fragment != b.fragment) return true;
+  for (const Slot v : a.end)
+    if (v == b.end[0] || v == b.end[1]) return true;
+  const auto& rest = body.body->map->rest();
+  return segment_distance({rest[a.end[0]], rest[a.end[1]]}, {rest[b.end[0]], rest[b.end[1]]}) <=
+         2 * body.settings().thickness;
+}
+
+namespace {
+
+// The contact normal of two edges, towards the first, and the gap.
+struct EdgeFacing {
+  std::array<double, 2> share{};
+  Vec3 normal = Vec3::Zero();
+  double gap = 0; // [m]
+};
+
+} // namespace
+
+std::optional<ContactConstraint> EdgeContact::touch(const ContactPairs::Bodies& bodies,
+                                                    const Pair& pair) const {
+  const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.other_body];
+  const Edge &a = edges_[pair.body][pair.edge], &b = edges_[pair.other_body][pair.other_edge];
+  const double thickness = ContactPairs::thickness(body, other);
+  const bool solid = is_solid(body) && is_solid(other);
+  const Segment p0{body.from(a.end[0]), body.from(a.end[1])}, q0{other.from(b.end[0]), other.from(b.end[1])};
+  const Segment p1{body.position(a.end[0]), body.position(a.end[1])},
+      q1{other.position(b.end[0]), other.position(b.end[1])};
+  // Out of a solid at its edge, as it is at the start of the step.
+  const auto out_of = [](const ContactBody& of, const Edge& edge, const Segment& x) -> Vec3 {
+    const Vec3 way = x[1] - x[0];
+    return way.cross(of.from(edge.beyond[0]) - x[0]).normalized() -
+           way.cross(of.from(edge.beyond[1]) - x[1]).normalized();
+  };
+  const auto facing = [&](const Segment& p, const Segment& q) -> std::optional<EdgeFacing> {
+    const auto share = nearest_within(p, q);
+    if (!share) return {};
+    const Vec3 way = point_at(p, (*share)[0]) - point_at(q, (*share)[1]);
+    const double gap = way.norm(), size = (p[1] - p[0]).norm() + (q[1] - q[0]).norm();
+    if (!(gap > same_point * (thickness + size))) return {};
+    EdgeFacing found{*share, way / gap, gap};
+    const bool outside =
+        found.normal.dot(out_of(other, b, q0)) > 0 && found.normal.dot(out_of(body, a, p0)) < 0;
+    return !solid || outside ? std::optional(found) : std::nullopt;
+  };
+  auto start = facing(p0, q0);
+  if (!start) return {};
+  const double before = start->gap,
+               after = start->normal.dot(point_at(p1, start->share[0]) - point_at(q1, start->share[1]));
+  if (after >= thickness) return {};
+  if (before > thickness) { // on their way they may still miss each other
+    const double share = (before - thickness) / (before - after);
+    const Vec3 side = start->normal;
+    start = facing(segment_between(p0, p1, share), segment_between(q0, q1, share));
+    if (!start || start->gap > ContactFragments::beside * thickness || start->normal.dot(side) <= 0) return {};
+  }
+  const auto point = [](const ContactBody& of, const Edge& edge, double share) {
+    return ContactPoint{&of, {edge.end[0], edge.end[1], edge.end[1]}, {1 - share, share, 0}};
+  };
+  const ContactPoint own = point(body, a, start->share[0]), there = point(other, b, start->share[1]);
+  return ContactConstraint{.a = ContactSide::of(own, own.held(start->normal)),
+                           .b = ContactSide::of(there, there.held(start->normal)),
+                           .normal = start->normal,
+                           .apart = thickness,
+                           .kept = thickness,
+                           .friction = body.terms(other).friction,
+                           .restitution = body.terms(other).restitution};
+}
+
+void EdgeContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
+  bool changed = edges_.size() != bodies.size();
+  edges_.resize(bodies.size());
+  there_.resize(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]->settings().fragments || (searched_ && !bodies[b]->changed)) continue;
+    list(*bodies[b], edges_[b]);
+    changed = true;
+  }
+  if (changed || has_moved(bodies)) search(bodies);
+  for (const Pair& pair : pairs_)
+    if (const auto found = touch(bodies, pair)) answer.add(*found);
+}
+
+std::size_t EdgeContact::bytes() const {
+  std::size_t sum = bytes_of(pairs_);
+  for (const auto& edges : edges_) sum += bytes_of(edges);
+  for (const auto& there : there_) sum += bytes_of(there);
+  return sum;
+}
+
+} // namespace rend
