@@ -71,6 +71,7 @@ void Contacts::store(Archive& archive) {
   for (auto& body : bodies_)
     if (body->faces) body->faces->update();
   if (fragments_) fragments_->forget();
+  if (edges_) edges_->forget();
 }
 
 std::size_t Contacts::bytes() const {

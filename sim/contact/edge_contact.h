@@ -36,6 +36,7 @@ public:
 
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
+  void forget() { *this = {}; }                       // what was listed: after a state was read
   std::size_t pairs() const { return pairs_.size(); } // candidates in the last step
   long searches() const { return searches_; }
   std::size_t bytes() const;
