@@ -299,12 +299,9 @@ void Renderer::draw_bodies(const Frame& frame, const View& view, const Lights& l
 const GlProgram& Renderer::body_program(const FrameBody& body) {
   const auto& torn = body.torn.colour;
   const FrameTexture& texture = body.texture;
-  const BodyKind kind{body.filled,
-                      torn,
-                      texture.front != nullptr,
-                      texture.back != nullptr,
-                      texture.front && texture.front->cut_out,
-                      body.filled && texture.roughness};
+  const bool front = texture.front != nullptr, back = texture.back != nullptr;
+  const BodyKind kind{
+      body.filled, torn, front, back, front && texture.front->cut_out, body.filled && texture.roughness};
   if (const auto at = body_programs_.find(kind); at != body_programs_.end()) return at->second;
   return body_programs_
       .try_emplace(

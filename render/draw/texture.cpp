@@ -104,6 +104,10 @@ void read_row(const TextureLevel& level, int y, LightRow& row) {
   }
 }
 
+void check_size(const Image& image) {
+  CHECK(image.width >= 1 && image.height >= 1 && std::max(image.width, image.height) <= largest_texture);
+}
+
 void remove_alpha(Image& image) {
   std::uint8_t* to = image.pixels.data();
   for (std::size_t at = 0; at < image.pixels.size(); at += 4)
@@ -157,14 +161,6 @@ bool is_transparent(const Image& image) {
     if (image.pixels[n] != 255) return true;
   return false;
 }
-
-namespace {
-
-void check_size(const Image& image) {
-  CHECK(image.width >= 1 && image.height >= 1 && std::max(image.width, image.height) <= largest_texture);
-}
-
-} // namespace
 
 std::shared_ptr<const Texture> make_number_texture(const Image& image) {
   check_size(image);

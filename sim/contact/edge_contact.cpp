@@ -1,6 +1,7 @@
 #include "sim/contact/edge_contact.h"
 
 #include "sim/contact/box_tree.h"
+#include "sim/mechanics/winding.h"
 #include "sim/topology/count.h"
 
 #include <algorithm>
@@ -53,22 +54,6 @@ BoxTree::Box span_of(const ContactBody& body, const std::array<Slot, 2>& end) {
   BoxTree::Box box;
   for (const Slot v : end) box.extend(body.from(v)).extend(body.position(v).vec());
   return box;
-}
-
-BoxTree::Box widened(const BoxTree::Box& box, double by) {
-  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
-}
-
-Vec3 rest_normal(const EmbeddedMap& map, std::span<const Slot> ring) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-    sum += (map.rest()[ring[k]].vec() - map.rest()[ring[0]].vec())
-               .cross(map.rest()[ring[k + 1]].vec() - map.rest()[ring[0]].vec());
-  return sum.normalized();
-}
-
-bool is_solid(const ContactBody& body) {
-  return body.body->map->dimension() == 3;
 }
 
 } // namespace
@@ -124,7 +109,8 @@ void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const 
   };
   std::map<std::array<Slot, 2>, FoundEdge> found;
   body.body->boundary().for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
-    const Vec3 normal = rest_normal(map, ring);
+    const Dart start = face.turned ? map.map().alpha(1, face.first) : face.first; // outward
+    const Vec3 normal = rest_area_vector(map, start).normalized();
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Slot a = ring[k], b = ring[(k + 1) % ring.size()], beyond = ring[(k + 2) % ring.size()];
       const auto [at, added] = found.try_emplace({std::min(a, b), std::max(a, b)});
@@ -140,7 +126,7 @@ void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const 
     }
   });
   edges.clear();
-  const bool solid = is_solid(body);
+  const bool solid = body.solid();
   for (const auto& [ends, known] : found)
     if (!solid || known.sharp) edges.push_back(known.edge);
 }
@@ -182,7 +168,7 @@ void EdgeContact::search(const ContactPairs::Bodies& bodies) {
   const double reach = skin_ + thickness;
   std::vector<std::vector<BoxTree::Box>> boxes(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (const Edge& edge : edges_[b]) boxes[b].push_back(widened(span_of(*bodies[b], edge.end), reach));
+    for (const Edge& edge : edges_[b]) boxes[b].push_back(grown(span_of(*bodies[b], edge.end), reach));
   const Trees trees(boxes);
   for (std::uint32_t b = 0; b < bodies.size(); ++b) add_pairs(bodies, b, trees, reach);
 }
@@ -236,7 +222,7 @@ std::optional<ContactConstraint> EdgeContact::touch(const ContactPairs::Bodies& 
   const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.other_body];
   const Edge &a = edges_[pair.body][pair.edge], &b = edges_[pair.other_body][pair.other_edge];
   const double thickness = ContactPairs::thickness(body, other);
-  const bool solid = is_solid(body) && is_solid(other);
+  const bool solid = body.solid() && other.solid();
   const Segment p0{body.from(a.end[0]), body.from(a.end[1])}, q0{other.from(b.end[0]), other.from(b.end[1])};
   const Segment p1{body.position(a.end[0]), body.position(a.end[1])},
       q1{other.position(b.end[0]), other.position(b.end[1])};

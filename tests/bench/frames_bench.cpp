@@ -184,7 +184,18 @@ BENCHMARK_CAPTURE(in_a_row, frames, 5'000)->Name("figure/frame_5000_serial")->Ap
 BENCHMARK_CAPTURE(overlapped, occluded, 5'000, true)->Name("figure/frame_5000_occlusion")->Apply(whole_way);
 BENCHMARK_CAPTURE(overlapped, many, 200'000, false)->Name("figure/frame_200000")->Apply(whole_way);
 
-// A photograph's worth of detail, 1024 pixels a side.
+// Draws these frames over and over.
+void measure(benchmark::State& state, Renderer& renderer, const std::vector<Frame>& clip) {
+  renderer.draw(clip.front()); // compiles the shaders
+  renderer.read();
+  std::size_t number = 0;
+  for (auto _ : state) {
+    renderer.draw(clip[number++ % phases]);
+    benchmark::DoNotOptimize(renderer.read());
+  }
+}
+
+// Much detail, as a photograph has it, 1024 pixels a side.
 Image detailed(unsigned seed) {
   Image image(1024, 1024);
   unsigned state = seed;
@@ -215,13 +226,7 @@ void draw_with_maps(benchmark::State& state) {
       if (texture.any())
         body.texture_points.push_back({corner.position[0] / 2 + 0.5f, corner.position[1] / 2 + 0.5f});
   }
-  renderer.draw(clip.front()); // compiles the shaders
-  renderer.read();
-  std::size_t number = 0;
-  for (auto _ : state) {
-    renderer.draw(clip[number++ % phases]);
-    benchmark::DoNotOptimize(renderer.read());
-  }
+  measure(state, renderer, clip);
 }
 BENCHMARK(draw_with_maps)->DenseRange(0, 3)->Apply(in_processor_time);
 
@@ -235,13 +240,7 @@ void draw(benchmark::State& state, const std::string& without) {
     if (without == "bodies") frame.bodies.clear();
     frame.occlusion = without == "nothing";
   }
-  renderer.draw(clip.front()); // compiles the shaders
-  renderer.read();
-  std::size_t number = 0;
-  for (auto _ : state) {
-    renderer.draw(clip[number++ % phases]);
-    benchmark::DoNotOptimize(renderer.read());
-  }
+  measure(state, renderer, clip);
 }
 BENCHMARK_CAPTURE(draw, all, "")->Apply(small_and_large);
 BENCHMARK_CAPTURE(draw, with_occlusion, "nothing")->Apply(small);
