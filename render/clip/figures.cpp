@@ -205,6 +205,7 @@ StateFigures state_of(const Session& session) {
   state.obstacles = obstacles_of(scene);
   state.spheres = spheres_of(scene);
   state.guard = scene.guard();
+  if (scene.contacts() && scene.contacts()->guard()) state.crossings = scene.contacts()->guard()->figures();
   state.rows = rows_of(scene);
   if (scene.scheme().solves) state.solver = solver_of(scene);
   if (scene.scheme().adaptive) state.adaptive = adaptive_of(scene);

@@ -96,6 +96,7 @@ struct StateFigures {
   std::vector<ObstacleFigures> obstacles; // likewise; empty: none that a body collides with
   std::vector<SphereFigures> spheres;     // those that move, in the order of the preset
   GuardFigures guard;
+  std::optional<CrossingFigures> crossings; // none: no faces in contact, or a scheme that solves
   std::vector<std::pair<std::string, std::size_t>>
       rows;                              // live ones that the integrator evaluates, by interaction
   std::optional<SolvingFigures> solver;  // none: the scheme does not solve

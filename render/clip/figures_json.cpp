@@ -156,6 +156,9 @@ Json json_of(const StateFigures& s) {
   if (s.touched_nothing) state["touched_nothing"] = *s.touched_nothing;
   if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
   state["guard"] = json_of(s.guard);
+  if (s.crossings)
+    state["crossings"] = {
+        {"tried", s.crossings->tried}, {"joined", s.crossings->joined}, {"left", s.crossings->left}};
   state["rows"] = std::move(rows);
   if (s.solver) state["solver"] = json_of(*s.solver);
   if (s.adaptive) state["adaptive"] = {{"parts", s.adaptive->substeps}, {"rejected", s.adaptive->rejected}};

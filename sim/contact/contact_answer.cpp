@@ -15,12 +15,16 @@ constexpr std::uint32_t no_mover = std::numeric_limits<std::uint32_t>::max();
 } // namespace
 
 void ContactAnswer::add(const ContactConstraint& contact) {
-  if (contact.gap() >= 0) return;
+  if (contact.gap() < 0) require(contact);
+}
+
+bool ContactAnswer::require(const ContactConstraint& contact) {
   Answered one{.contact = contact,
                .inverse_masses = contact.a.inverse_mass() + contact.b.inverse_mass(),
                .before = contact.a.velocity_before() - contact.b.velocity_before()};
   one.along = inverse_mass_along(contact.normal, one.inverse_masses);
   if (one.along > 0) contacts_.push_back(one);
+  return one.along > 0;
 }
 
 std::uint32_t ContactAnswer::mover_of(const ContactBody& body, Slot vertex) {
@@ -31,7 +35,8 @@ std::uint32_t ContactAnswer::mover_of(const ContactBody& body, Slot vertex) {
   if (number == no_mover) {
     number = static_cast<std::uint32_t>(movers_.size());
     const Vec3 velocity = body.velocity(vertex);
-    movers_.push_back({velocity, velocity, body.inverse_mass(vertex), &body, nullptr, vertex});
+    movers_.push_back(
+        {velocity, velocity, body.inverse_mass(vertex), &body, nullptr, vertex, body.position(vertex)});
   }
   return number;
 }
@@ -41,7 +46,7 @@ std::uint32_t ContactAnswer::mover_of(Sphere& sphere) {
   while (number < movers_.size() && movers_[number].sphere != &sphere) ++number;
   if (number == movers_.size())
     movers_.push_back({sphere.next_velocity, sphere.next_velocity, Vec3::Constant(sphere.inverse_mass()),
-                       nullptr, &sphere, 0});
+                       nullptr, &sphere, 0, sphere.next_centre});
   return static_cast<std::uint32_t>(number);
 }
 
@@ -61,7 +66,6 @@ void ContactAnswer::gather(Answered& one, const ContactSide& side, double sign) 
 }
 
 void ContactAnswer::gather(double step) {
-  movers_.clear();
   visits_ = 0;
   for (const Answered& one : contacts_) // first, so that they are found soon
     for (const ContactSide* side : {&one.contact.a, &one.contact.b})
@@ -219,6 +223,31 @@ void ContactAnswer::write_back(double step) {
     v = Record(mover.velocity);
     mover_of_[mover.body->number][mover.vertex] = no_mover;
   }
+}
+
+void ContactAnswer::take_back() {
+  for (const Mover& mover : movers_) {
+    if (Sphere* sphere = mover.sphere) {
+      sphere->next_centre = mover.position;
+      sphere->next_velocity = mover.start;
+      continue;
+    }
+    mover.body->position(mover.vertex) = Record(mover.position);
+    mover.body->velocity(mover.vertex) = Record(mover.start);
+  }
+  movers_.clear();
+  for (Answered& one : contacts_) {
+    one.part_count = 0;
+    one.surface = one.friction = Vec3::Zero();
+    one.normal_impulse = 0;
+    one.visited = 0;
+  }
+}
+
+Vec3 ContactAnswer::change_of(const Sphere& sphere) const {
+  for (const Mover& mover : movers_)
+    if (mover.sphere == &sphere) return mover.velocity - mover.start;
+  return Vec3::Zero();
 }
 
 void ContactAnswer::account() const {

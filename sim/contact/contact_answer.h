@@ -49,11 +49,24 @@ class ContactAnswer {
 public:
   // `pushes`: of a scheme that solves; there is no restitution.
   explicit ContactAnswer(bool pushes) : pushes_(pushes) {}
-  void begin() { contacts_.clear(); } // a step
+  void begin() { // a step
+    contacts_.clear();
+    movers_.clear();
+  }
   void add(const ContactConstraint& contact);
+  // Also one that has no negative gap yet, since others may push it there; false: neither side can be moved.
+  bool require(const ContactConstraint& contact);
   bool empty() const { return contacts_.empty(); }
   void solve(double step); // [s]
+  void take_back();        // what solve() has changed, so that it can be called again with more contacts
   void account() const;    // once solved: what contact took, to the meters of bodies and spheres
+
+  // Calls f(body, vertex, Δu [m/s]) for each vertex that it has changed.
+  template <class F> void each_change(const F& f) const {
+    for (const Mover& mover : movers_)
+      if (mover.body) f(*mover.body, mover.vertex, Vec3(mover.velocity - mover.start));
+  }
+  Vec3 change_of(const Sphere& sphere) const; // [m/s]
 
   std::size_t touching() const; // contacts that took an impulse
   std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_) + mover_bytes(); }
@@ -66,6 +79,7 @@ private:
     const ContactBody* body; // null: a sphere
     Sphere* sphere;
     Slot vertex;
+    Vec3 position;    // [m], at the end of the step without contact
     long changed = 0; // the visit that changed it last, counted from 1
   };
   struct Part {

@@ -50,10 +50,10 @@ public:
     return {axes & 1u ? 0 : w, axes & 2u ? 0 : w, axes & 4u ? 0 : w};
   }
   Vec3 from(Slot v) const { return body->map->position()[v]; } // [m], at the start of the step
-  // [m/s], u⁻ of leapfrog.h, before an impulse has changed the velocity.
-  Vec3 velocity_before(Slot v) const {
+  // [m/s], u⁻ of leapfrog.h; `by_contact` [m/s]: by what contact has changed the velocity in this step.
+  Vec3 velocity_before(Slot v, const Vec3& by_contact = Vec3::Zero()) const {
     const Vec3 start = body->map->velocity()[v];
-    return of_start_ ? start : Vec3(2 * start - velocity(v).vec());
+    return of_start_ ? start : Vec3(2 * start - (velocity(v).vec() - by_contact));
   }
   // At the end of the step; in one that drifts, the velocity is that of its middle.
   Record& position(Slot v) const { return body->next.position[v]; }
@@ -73,7 +73,7 @@ struct ContactPoint {
 
   static ContactPoint at(const ContactBody& body, Slot v) { return {&body, {v, v, v}, {1, 0, 0}}; }
 
-  // As those of ContactBody.
+  // As those of ContactBody, before an impulse has changed the velocity.
   Vec3 from() const;
   Vec3 velocity_before() const;
   Vec3 position() const;

@@ -20,9 +20,12 @@ bool ContactFaces::update() {
 void ContactFaces::list() {
   revision_ = boundary_.revision();
   triangles_.clear();
+  const bool sheet = map_.dimension() == 2;
   boundary_.for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
     const Slot slot = map_.slot(FaceOfVolume, face.first);
-    const auto at = [&](std::uint32_t corner) { return ring[(corner + (face.turned ? 1 : 0)) % ring.size()]; };
+    // The vertex of the smallest dart is the middle of the fan; of a turned face of a sheet it comes last.
+    const std::size_t middle = sheet && face.turned ? ring.size() - 1 : 0;
+    const auto at = [&](std::uint32_t corner) { return ring[(corner + middle) % ring.size()]; };
     for (std::uint32_t number = 0; number < fan_size(face.sides); ++number) {
       const auto [a, b, c] = fan_corners(number);
       triangles_.push_back({{at(a), at(b), at(c)}, slot});

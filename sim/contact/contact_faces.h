@@ -1,8 +1,8 @@
 // What others can touch of a body: the faces of its boundary as triangles, those of a solid counter-clockwise
 // as seen from outside at rest. Listed anew after edits.
 //
-// A face becomes a fan as where it is drawn (boundary_triangle.h), but around its second corner where it is
-// walked the other way around: the diagonals of a quad differ, and the course of a contact with them.
+// A face becomes the same triangles as where it is drawn and exported (boundary_triangle.h): what is seen is
+// what is kept apart.
 //
 // Searches go through all triangles, so each is kept to 16 bytes, four to a cache line: what is read to draw
 // one is not here.

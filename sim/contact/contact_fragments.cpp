@@ -65,6 +65,7 @@ void ContactFragments::arrange(const ContactBodies& bodies) {
   std::uint32_t first_vertex = 0, first_triangle = 0;
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     const std::size_t first = fragments_.size();
+    of_[b].first = static_cast<std::uint32_t>(first);
     fragments_.resize(first + of_[b].fragments);
     for (const std::uint32_t f : of_[b].vertex_fragment) ++fragments_[first + f].vertices_end;
     for (const std::uint32_t f : of_[b].face_fragment) ++fragments_[first + f].triangles_end;
@@ -80,7 +81,31 @@ void ContactFragments::arrange(const ContactBodies& bodies) {
   }
   for (std::vector<Vec3>* each : {&from_, &at_, &there_}) each->resize(vertices);
   moved_.assign(vertices, 0);
+  if (with_sides_) list_sides();
   fresh_ = true;
+}
+
+void ContactFragments::list_sides() {
+  sides_.clear();
+  for (Fragment& fragment : fragments_) {
+    fragment.sides = static_cast<std::uint32_t>(sides_.size());
+    for (std::uint32_t t = fragment.triangles; t < fragment.triangles_end; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = triangles_[t].corner[k], b = triangles_[t].corner[(k + 1) % 3];
+        sides_.push_back({std::min(a, b), std::max(a, b)});
+      }
+    const auto begin = sides_.begin() + fragment.sides;
+    std::sort(begin, sides_.end());
+    sides_.erase(std::unique(begin, sides_.end()), sides_.end());
+    fragment.sides_end = static_cast<std::uint32_t>(sides_.size());
+  }
+}
+
+std::optional<std::uint32_t> ContactFragments::fragment_of(std::size_t body, Slot vertex) const {
+  const BodyEntry& of = of_[body];
+  const auto at = std::lower_bound(of.vertices.begin(), of.vertices.end(), vertex);
+  if (at == of.vertices.end() || *at != vertex) return {};
+  return of.first + of.vertex_fragment[static_cast<std::size_t>(at - of.vertices.begin())];
 }
 
 // Puts a body's vertices and triangles where its fragments have room for them, whose ends are their beginnings.
@@ -165,7 +190,7 @@ void ContactFragments::renew(const ContactBodies& bodies, std::uint32_t f) {
 std::size_t ContactFragments::bytes() const {
   std::size_t sum = bytes_of(fragments_) + bytes_of(slots_) + bytes_of(rank_) + bytes_of(from_) +
                     bytes_of(at_) + bytes_of(there_) + bytes_of(moved_) + bytes_of(triangles_) +
-                    bytes_of(number_);
+                    bytes_of(sides_) + bytes_of(number_);
   for (const BodyEntry& of : of_)
     sum += bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment);
   return sum;

@@ -40,6 +40,7 @@ public:
     std::uint32_t body = 0;
     std::uint32_t vertices = 0, vertices_end = 0;   // numbers of its vertices, those of the arrays below
     std::uint32_t triangles = 0, triangles_end = 0; // of its triangles
+    std::uint32_t sides = 0, sides_end = 0;         // of their sides, if these are listed
     Vec3 start = Vec3::Zero(), end = Vec3::Zero();  // [m]: the mean of its vertices, of this step
     double moved = 0;        // [m]: of its vertices, at most, at the start of this step and at its end
     double moved_at_end = 0; // [m]
@@ -53,6 +54,11 @@ public:
     std::uint32_t number = 0;              // index into the body's ContactFaces::triangles()
   };
 
+  using Side = std::array<std::uint32_t, 2>; // numbers of vertices, the smaller first
+
+  // `with_sides`: the sides of triangles are listed, each once.
+  explicit ContactFragments(bool with_sides = false) : with_sides_(with_sides) {}
+
   // Lists them anew if a map was changed, or after forget(); false: they are those of the last call.
   bool update(const ContactBodies& bodies);
   void forget() { listed_ = false; }
@@ -63,18 +69,28 @@ public:
   void measure(const ContactBodies& bodies);                // the boxes and moves of this step
   void renew(const ContactBodies& bodies, std::uint32_t f); // moves are measured from the end of this step on
 
+  // Where its vertices are moved by `pushed` [m] at most after they were measured.
+  void reach_further(std::uint32_t f, double pushed) {
+    fragments_[f].reach = grown(fragments_[f].reach, pushed);
+  }
+
   const std::vector<Fragment>& all() const { return fragments_; }
+  // `body`: index of it; none: the vertex is in no face, or the body has no contact of fragments.
+  std::optional<std::uint32_t> fragment_of(std::size_t body, Slot vertex) const;
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
+  const Side& side(std::uint32_t s) const { return sides_[s]; }
   std::size_t vertices() const { return slots_.size(); }
   Slot slot(std::uint32_t n) const { return slots_[n]; }
   std::uint32_t rank(std::uint32_t n) const { return rank_[n]; } // among all vertices, by body and slot
   const Vec3& from(std::uint32_t n) const { return from_[n]; }   // [m], at the start of this step
   const Vec3& at(std::uint32_t n) const { return at_[n]; }       // [m], at its end
   double moved(std::uint32_t n) const { return moved_[n]; }      // [m], the larger of start and end
-  double moved(const Triangle& t) const {                        // of a corner, at most
+  double moved(const Side& s) const { return std::max(moved_[s[0]], moved_[s[1]]); } // [m], of an end
+  double moved(const Triangle& t) const { // [m], of a corner, at most
     return std::max({moved_[t.corner[0]], moved_[t.corner[1]], moved_[t.corner[2]]});
   }
   Box around(std::uint32_t n) const { return Box(from_[n].cwiseMin(at_[n]), from_[n].cwiseMax(at_[n])); }
+  Box around(const Side& s) const { return around(s[0]).merged(around(s[1])); }
   Box around(const Triangle& t) const {
     return around(t.corner[0]).merged(around(t.corner[1])).merged(around(t.corner[2]));
   }
@@ -85,11 +101,12 @@ private:
     std::vector<Slot> vertices;                 // of its faces, increasing
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`, from 0, increasing at its first
     std::vector<std::uint32_t> face_fragment;   // one per triangle
-    std::uint32_t fragments = 0;
+    std::uint32_t fragments = 0, first = 0;     // how many, and the number of the first
   };
   static void list(const ContactBody& body, BodyEntry& of);
   void arrange(const ContactBodies& bodies);
   void place(const ContactBody& body, const BodyEntry& of, std::size_t first);
+  void list_sides();
   void gather(const ContactBody& body, Fragment& fragment);
   void measure_moves(const ContactBody& body, Fragment& fragment);
 
@@ -101,7 +118,9 @@ private:
   std::vector<Vec3> there_;         // [m], one per vertex number: from the mean, at the renewal
   std::vector<double> moved_;       // [m], one per vertex number
   std::vector<Triangle> triangles_; // those of a fragment one after another, increasing
+  std::vector<Side> sides_;         // those of a fragment one after another, sorted; empty: not wanted
   std::vector<std::uint32_t> number_; // scratch, one per vertex slot of a body: its number here
+  bool with_sides_;
   bool listed_ = false;
   bool fresh_ = false; // listed, and not measured since
 };

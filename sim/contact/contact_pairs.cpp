@@ -1,6 +1,6 @@
 #include "sim/contact/contact_pairs.h"
 
-#include "sim/outside/obstacle.h"
+#include "sim/contact/edge_face.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 namespace rend {
 namespace {
 
+constexpr double nearly_parallel = 1e-3; // the sine of the angle (edge_face.cpp)
 constexpr double beside = ContactFragments::beside, deepest = ContactFragments::deepest;
 
 // By how much both may move until the vertex may be as deep behind the face of a solid as it is still seen: the
@@ -41,7 +42,8 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
     swept_.clear();
     neighbours_.clear();
     pool_.clear();
-    unused_ = 0;
+    edge_pool_.clear();
+    unused_ = unused_edges_ = 0;
   }
   pairs_.clear();
   if (!fragments_.anything(bodies)) return pairs_;
@@ -49,15 +51,19 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
   if (!all_within()) sweep(bodies);
   note_near(bodies);
   renew(bodies);
+  search_due(bodies);
   if (!due_.empty()) {
-    pack();
-    for (const std::size_t n : due_) search(bodies, neighbours_[n]);
     found_.reserve(pairs());
     pairs_.reserve(pairs());
   }
   gather();
   sort();
   return pairs_;
+}
+
+void ContactPairs::search_due(const Bodies& bodies) {
+  if (!due_.empty()) pack();
+  for (const std::size_t n : due_) search(bodies, neighbours_[n]);
 }
 
 bool ContactPairs::all_within() const {
@@ -143,25 +149,29 @@ void ContactPairs::renew(const Bodies& bodies) {
 
 void ContactPairs::drop(Neighbours& list) {
   unused_ += list.end - list.begin;
-  list.begin = list.end = 0;
+  unused_edges_ += list.edges_end - list.edges;
+  list.begin = list.end = list.edges = list.edges_end = 0;
   list.searched = false;
 }
 
-// Puts the lists one after another, if half of the pool is unused.
+// Puts the lists one after another, if half of the pools is unused.
 void ContactPairs::pack() {
-  if (2 * unused_ <= pool_.size()) return;
-  std::vector<Candidate> packed;
-  packed.reserve(pool_.size());
-  for (Neighbours& list : neighbours_) {
-    const auto from = pool_.begin();
-    const std::size_t begin = packed.size();
-    packed.insert(packed.end(), from + static_cast<std::ptrdiff_t>(list.begin),
-                  from + static_cast<std::ptrdiff_t>(list.end));
-    list.begin = begin;
-    list.end = packed.size();
-  }
-  pool_ = std::move(packed);
-  unused_ = 0;
+  if (2 * (unused_ + unused_edges_) <= pool_.size() + edge_pool_.size()) return;
+  const auto pack_one = [&](auto& pool, std::size_t Neighbours::*begin, std::size_t Neighbours::*end) {
+    std::remove_reference_t<decltype(pool)> packed;
+    packed.reserve(pool.size());
+    for (Neighbours& list : neighbours_) {
+      const std::size_t first = packed.size();
+      packed.insert(packed.end(), pool.begin() + static_cast<std::ptrdiff_t>(list.*begin),
+                    pool.begin() + static_cast<std::ptrdiff_t>(list.*end));
+      list.*begin = first;
+      list.*end = packed.size();
+    }
+    pool = std::move(packed);
+  };
+  pack_one(pool_, &Neighbours::begin, &Neighbours::end);
+  pack_one(edge_pool_, &Neighbours::edges, &Neighbours::edges_end);
+  unused_ = unused_edges_ = 0;
 }
 
 double ContactPairs::apart(const Neighbours& list) const {
@@ -187,6 +197,12 @@ void ContactPairs::search(const Bodies& bodies, Neighbours& list) {
   search(bodies, list, a, b);
   if (list.a != list.b) search(bodies, list, b, a);
   list.end = pool_.size();
+  list.edges = edge_pool_.size();
+  if (edges_ && (a.body != b.body || list.a == list.b)) {
+    search_edges(list, a, b);
+    if (list.a != list.b) search_edges(list, b, a);
+  }
+  list.edges_end = edge_pool_.size();
   list.least = std::numeric_limits<double>::infinity();
   for (std::size_t n = list.begin; n < list.end; ++n) list.least = std::min(list.least, pool_[n].clear);
 }
@@ -288,10 +304,103 @@ void ContactPairs::sort() {
   }
 }
 
+// For the edges of one and the triangles of the other: those that are nearer than the skin, or may be in this
+// step.
+void ContactPairs::search_edges(const Neighbours& list, const Fragment& of, const Fragment& with) {
+  const double reach = std::max(list.skin, moved(list));
+  near_.clear();
+  boxes_.clear();
+  Box all;
+  for (std::uint32_t t = with.triangles; t < with.triangles_end; ++t) {
+    const Box wide = grown(fragments_.around(fragments_.triangle(t)), reach);
+    if (!wide.intersects(of.box)) continue;
+    near_.push_back(t);
+    boxes_.push_back(wide);
+    all.extend(wide);
+  }
+  if (near_.empty()) return;
+  const bool many = near_.size() > 24;
+  const BoxTree tree(many ? boxes_ : std::vector<Box>{});
+  for (std::uint32_t s = of.sides; s < of.sides_end; ++s) {
+    const Box box = fragments_.around(fragments_.side(s));
+    if (!all.intersects(box)) continue;
+    const auto look = [&](std::uint32_t n) { try_edge(list, {s, near_[n]}); };
+    if (many) {
+      tree.each_in(box, look);
+      continue;
+    }
+    for (std::uint32_t n = 0; n < near_.size(); ++n)
+      if (boxes_[n].intersects(box)) look(n);
+  }
+}
+
+void ContactPairs::try_edge(const Neighbours& list, EdgeCandidate found) {
+  const ContactFragments::Side& side = fragments_.side(found.side);
+  const ContactFragments::Triangle& triangle = fragments_.triangle(found.triangle);
+  const auto& corner = triangle.corner;
+  for (const std::uint32_t end : side)
+    if (std::find(corner.begin(), corner.end(), end) != corner.end()) return;
+  const Segment x{fragments_.at(side[0]), fragments_.at(side[1])};
+  const TriangleCorners y{fragments_.at(corner[0]), fragments_.at(corner[1]), fragments_.at(corner[2])};
+  // nearest() is above the distance of edges that are nearly parallel, by this share of them at most.
+  const double slack =
+      nearly_parallel * std::min((x[1] - x[0]).norm(), (y[1] - y[0]).norm() + (y[2] - y[0]).norm());
+  found.apart = passes_through(x, y, 0) ? 0 : nearest(x, y).distance - slack;
+  const double moved = apart(list) + fragments_.moved(side) + fragments_.moved(triangle);
+  if (found.apart <= std::max(list.skin, moved)) edge_pool_.push_back(found);
+}
+
+// What was not searched, or not far enough, before vertices were pushed.
+void ContactPairs::search_further(const Bodies& bodies, const std::vector<double>& pushed) {
+  bool any = false;
+  for (std::uint32_t f = 0; f < pushed.size(); ++f) {
+    if (pushed[f] == 0) continue;
+    fragments_.reach_further(f, pushed[f]);
+    any = true;
+  }
+  if (!any) return;
+  if (!all_within()) sweep(bodies);
+  note_near(bodies);
+  renew(bodies);
+  search_due(bodies);
+  for (Neighbours& list : neighbours_) {
+    const double most = moved(list) + pushed[list.a] + pushed[list.b];
+    if (!list.searched || most <= list.skin) continue;
+    const double skin = std::exchange(list.skin, most);
+    search(bodies, list);
+    list.skin = skin;
+  }
+}
+
+const std::vector<EdgeFacePair>& ContactPairs::crossing(const Bodies& bodies,
+                                                        const std::vector<double>& pushed) {
+  crossing_.clear();
+  if (!fragments_.anything(bodies)) return crossing_;
+  search_further(bodies, pushed);
+  const auto& all = fragments_.all();
+  for (const Neighbours& list : neighbours_) {
+    if (list.edges == list.edges_end) continue;
+    const double by = apart(list) + pushed[list.a] + pushed[list.b];
+    const Fragment &a = all[list.a], &b = all[list.b];
+    for (std::size_t n = list.edges; n < list.edges_end; ++n) {
+      const EdgeCandidate& each = edge_pool_[n];
+      const ContactFragments::Side& side = fragments_.side(each.side);
+      const ContactFragments::Triangle& triangle = fragments_.triangle(each.triangle);
+      if (each.apart > by + fragments_.moved(side) + fragments_.moved(triangle)) continue;
+      const bool of_a = each.side >= a.sides && each.side < a.sides_end;
+      crossing_.push_back({.body = of_a ? a.body : b.body,
+                           .edge = {fragments_.slot(side[0]), fragments_.slot(side[1])},
+                           .face_body = of_a ? b.body : a.body,
+                           .triangle = triangle.number});
+    }
+  }
+  return crossing_;
+}
+
 std::size_t ContactPairs::bytes() const {
-  return fragments_.bytes() + bytes_of(swept_) + bytes_of(neighbours_) + bytes_of(pool_) + bytes_of(due_) +
-         bytes_of(renewal_) + bytes_of(boxes_) + bytes_of(near_) + bytes_of(found_) + bytes_of(begin_) +
-         bytes_of(pairs_);
+  return fragments_.bytes() + bytes_of(swept_) + bytes_of(neighbours_) + bytes_of(pool_) +
+         bytes_of(edge_pool_) + bytes_of(crossing_) + bytes_of(due_) + bytes_of(renewal_) + bytes_of(boxes_) +
+         bytes_of(near_) + bytes_of(found_) + bytes_of(begin_) + bytes_of(pairs_);
 }
 
 } // namespace rend

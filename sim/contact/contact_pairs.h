@@ -33,6 +33,9 @@
 // than tan⁻¹ s, s = 2δ/(a − 2δ) = 2/(p − 2), and n'·(x − y) ≥ −c r with r = |x − y| ≥ d and c = s/√(1 + s²);
 // hence M² ≥ |x − y + g n'|² ≥ r² − 2 c g r + g² ≥ (1 − c²) r², q = √(1 − c²) = 1/√(1 + s²). With p = 8, 6, 4:
 // s = 1/3, 1/2, 1 and q = 0.94, 0.89, 0.70.
+//
+// An edge and a face that were at a distance d at a search are at d − M at least, less what contact has pushed
+// their fragments by since M was measured: they may cross in a step where that is not positive.
 #pragma once
 
 #include "sim/contact/contact_fragments.h"
@@ -47,14 +50,31 @@ struct ContactPair {
   bool neighbours = false;    // closer than the thickness at rest
 };
 
+struct EdgeFacePair {
+  std::uint32_t body = 0; // of the edge
+  std::array<Slot, 2> edge{};
+  std::uint32_t face_body = 0;
+  std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
+  auto operator<=>(const EdgeFacePair&) const = default;
+};
+
 class ContactPairs {
 public:
   using Bodies = ContactBodies;
+
+  // `edges`: pairs of edges and faces are listed as well.
+  explicit ContactPairs(bool edges = false) : fragments_(edges), edges_(edges) {}
 
   // The pairs that may touch within this step, sorted by body, vertex, body of the face, triangle. For bodies
   // with contact of fragments: pairs of different bodies that do not exclude each other, and of different
   // fragments, and with `self` also those within a fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
+
+  // Once find() was called, and vertices have been moved since then, those of each fragment by `pushed` [m] at
+  // most: the edges and faces of different bodies, and with `self` of one fragment, that may go through
+  // each other in this step. In the order of the lists, which depends on when they were searched.
+  const std::vector<EdgeFacePair>& crossing(const Bodies& bodies, const std::vector<double>& pushed);
+  const ContactFragments& fragments() const { return fragments_; }
 
   // The distance that two bodies keep [m].
   static double thickness(const ContactBody& a, const ContactBody& b) {
@@ -75,18 +95,23 @@ private:
     double clear = 0;                       // [m]: the two do not touch while M is less than this
     bool neighbours = false;
   };
+  struct EdgeCandidate {
+    std::uint32_t side = 0, triangle = 0; // numbers of ContactFragments
+    double apart = 0;                     // [m], at the search
+  };
   struct Found {
     std::uint32_t rank = 0; // of its vertex among all
     ContactPair pair;
   };
   struct Neighbours {
-    std::uint32_t a = 0, b = 0;     // fragments, a < b; a = b: `self`
-    bool searched = false;          // and near ever since
-    std::size_t begin = 0, end = 0; // of their candidates in the pool
-    double skin = 0;                // [m]
-    double least = 0;               // [m]: `clear` of a candidate
-    double before = 0;              // [m], part of M: before their renewals
-    Vec3 between = Vec3::Zero();    // [m]: of their means at the search
+    std::uint32_t a = 0, b = 0;           // fragments, a < b; a = b: `self`
+    bool searched = false;                // and near ever since
+    std::size_t begin = 0, end = 0;       // of their candidates in the pool
+    std::size_t edges = 0, edges_end = 0; // in the pool of edges
+    double skin = 0;                      // [m]
+    double least = 0;                     // [m]: `clear` of a candidate
+    double before = 0;                    // [m], part of M: before their renewals
+    Vec3 between = Vec3::Zero();          // [m]: of their means at the search
   };
 
   // of the neighbours
@@ -98,6 +123,7 @@ private:
   // of the candidates
   void drop(Neighbours& list);
   void pack();
+  void search_due(const Bodies& bodies);
   double apart(const Neighbours& list) const; // [m]: M but for the moves of vertex and corners
   double moved(const Neighbours& list) const; // [m]: M, at most
   void search(const Bodies& bodies, Neighbours& list);
@@ -105,20 +131,27 @@ private:
   void try_one(const ContactBody& body, const ContactBody& other, const Neighbours& list, Candidate found);
   void gather();
   void sort();
+  // of edges
+  void search_edges(const Neighbours& list, const Fragment& of, const Fragment& with);
+  void try_edge(const Neighbours& list, EdgeCandidate found);
+  void search_further(const Bodies& bodies, const std::vector<double>& pushed);
 
   ContactFragments fragments_;
   std::vector<Box> swept_;             // [m], one per fragment: what it has not left since the sweep
   std::vector<Neighbours> neighbours_; // sorted by a, b
   std::vector<Candidate> pool_;        // those of the same neighbours one after another
-  std::size_t unused_ = 0;             // in the pool
-  std::vector<std::size_t> due_;       // indices of neighbours that are to be searched in this step
+  std::vector<EdgeCandidate> edge_pool_;
+  bool edges_;
+  std::size_t unused_ = 0, unused_edges_ = 0; // in the pools
+  std::vector<std::size_t> due_;              // indices of neighbours that are to be searched in this step
   enum class Renewal : std::uint8_t { Alone, None, Due };
-  std::vector<Renewal> renewal_;     // one per fragment; alone: near nothing
-  std::vector<Box> boxes_;           // [m], scratch: one per near triangle
-  std::vector<std::uint32_t> near_;  // scratch: numbers of near triangles
-  std::vector<Found> found_;         // of this step, in the order of the lists
-  std::vector<std::uint32_t> begin_; // scratch, one per rank of a vertex: where its pairs begin, and one more
-  std::vector<ContactPair> pairs_;   // of this step, sorted
+  std::vector<Renewal> renewal_;       // one per fragment; alone: near nothing
+  std::vector<Box> boxes_;             // [m], scratch: one per near triangle
+  std::vector<std::uint32_t> near_;    // scratch: numbers of near triangles
+  std::vector<Found> found_;           // of this step, in the order of the lists
+  std::vector<std::uint32_t> begin_;   // scratch, one per rank of a vertex: where its pairs begin, and one more
+  std::vector<ContactPair> pairs_;     // of this step, sorted
+  std::vector<EdgeFacePair> crossing_; // of this step
   long sweeps_ = 0, searches_ = 0;
 };
 

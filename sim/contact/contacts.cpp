@@ -17,7 +17,8 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
       contacts->bodies_.push_back(std::make_unique<ContactBody>(*bodies[b], scheme.contact, b));
   for (const auto& body : contacts->bodies_)
     if (body->settings().fragments && !contacts->fragments_)
-      contacts->fragments_ = std::make_unique<FragmentContact>();
+      contacts->fragments_ = std::make_unique<FragmentContact>(!scheme.solves);
+  if (contacts->with_faces() && !scheme.solves) contacts->guard_ = std::make_unique<CrossingGuard>();
   if (EdgeContact::is_asked_for(contacts->bodies_)) contacts->edges_ = std::make_unique<EdgeContact>();
   for (const auto& body : contacts->bodies_) body->body->drifts_always = scheme.contact == ContactIn::Step;
   if (contacts->bodies_.empty() && world.spheres.empty()) return {};
@@ -30,10 +31,18 @@ void Contacts::advance(double time, double step) {
   for (auto& body : bodies_) body->prepare(time + step);
   obstacles_.predict(time, step);
   detect();
-  if (!answer_.empty() && in_ == ContactIn::StepInstead) drift_all(time, step);
+  const bool again = in_ == ContactIn::StepInstead && anything();
+  if (again) drift_all(time, step);
   answer_.solve(step);
-  answer_.account();
-  if (in_ != ContactIn::Result) end_step(time, step);
+  if (guard_)
+    guard_->keep_apart(bodies_, lists(), obstacles_, answer_, step);
+  else
+    answer_.account();
+  if (in_ != ContactIn::Result) end_step(time, step, again);
+}
+
+bool Contacts::anything() {
+  return !answer_.empty() || (guard_ && guard_->comes_through(bodies_, lists(), obstacles_, answer_));
 }
 
 // In place of what the scheme has made.
@@ -43,13 +52,13 @@ void Contacts::drift_all(double time, double step) {
   detect();
 }
 
-// As long as something touches, the state stays staggered.
-void Contacts::end_step(double time, double step) {
+// As long as something touches, the state stays staggered. `drifted`: all bodies have.
+void Contacts::end_step(double time, double step, bool drifted) {
   for (auto& each : bodies_) {
     Body& body = *each->body;
-    if (!answer_.empty())
+    if (!answer_.empty() || (guard_ && guard_->acted()))
       body.next.staggered = true;
-    else if (body.drifts())
+    else if (drifted || body.drifts())
       body.kick(time, step);
   }
 }
@@ -76,7 +85,7 @@ void Contacts::store(Archive& archive) {
 
 std::size_t Contacts::bytes() const {
   std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0) +
-                    (edges_ ? edges_->bytes() : 0);
+                    (edges_ ? edges_->bytes() : 0) + (guard_ ? guard_->bytes() : 0);
   for (const auto& body : bodies_) sum += body->bytes();
   return sum;
 }

@@ -4,6 +4,7 @@
 //                edge_contact.h)
 //   constraints  of one kind (contact_constraint.h)
 //   answer       by impulses, all at once (contact_answer.h)
+//   guard        what would go through each other nevertheless (crossing_guard.h)
 //
 // Within a step of velocity Verlet, and of other explicit schemes but symplectic Euler where something touches
 // (sim/integrate/leapfrog.h).
@@ -11,6 +12,7 @@
 // Prescribed vertices take no impulse: their supports do.
 #pragma once
 
+#include "sim/contact/crossing_guard.h"
 #include "sim/contact/edge_contact.h"
 #include "sim/contact/fragment_contact.h"
 #include "sim/contact/obstacle_contact.h"
@@ -29,20 +31,24 @@ public:
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
   const EdgeContact* edges() const { return edges_.get(); }             // null: edges of none can touch
+  const CrossingGuard* guard() const { return guard_.get(); } // null: the floor alone, or a scheme that solves
   bool with_faces() const; // some body can touch more than the floor, or there are spheres
   std::size_t bytes() const;
-  void store(Archive& archive); // after the bodies: nothing but a mark, since pairs are found anew
+  void store(Archive& archive); // after the bodies: figures alone, since pairs are found anew
 
 private:
   Contacts(World& world, const Scheme& scheme)
       : in_(scheme.contact), obstacles_(world), answer_(scheme.solves) {}
   void detect();
+  bool anything(); // that is to be answered
+  ContactPairs* lists() { return fragments_ ? &fragments_->lists() : nullptr; }
   void drift_all(double time, double step);
-  void end_step(double time, double step);
+  void end_step(double time, double step, bool drifted);
 
   ContactIn in_;
   std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
   std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
+  std::unique_ptr<CrossingGuard> guard_;             // null: as guard()
   std::unique_ptr<EdgeContact> edges_;               // null: no two bodies can touch, and none itself
   ObstacleContact obstacles_;
   ContactAnswer answer_;

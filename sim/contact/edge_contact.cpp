@@ -1,6 +1,7 @@
 #include "sim/contact/edge_contact.h"
 
 #include "sim/contact/box_tree.h"
+#include "sim/contact/edge_face.h"
 #include "sim/mechanics/winding.h"
 #include "sim/topology/count.h"
 
@@ -14,28 +15,9 @@ namespace {
 
 constexpr double flat_edge = 0.985;  // the cosine between the normals of two faces from which an edge is none
 constexpr double same_point = 1e-10; // relative to the thickness and the lengths of the edges
-constexpr double parallel_edges = 1e-6; // the square of the sine between edges below which they are
-
-using Segment = std::array<Vec3, 2>;
-
-Vec3 point_at(const Segment& x, double share) {
-  return x[0] + share * (x[1] - x[0]);
-}
 
 Segment segment_between(const Segment& a, const Segment& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
-}
-
-// The nearest points of two segments, as shares of the way along each, if both lie between the ends (Ericson,
-// Real-Time Collision Detection, 5.1.9).
-std::optional<std::array<double, 2>> nearest_within(const Segment& p, const Segment& q) {
-  const Vec3 u = p[1] - p[0], v = q[1] - q[0], r = p[0] - q[0];
-  const double a = u.squaredNorm(), b = u.dot(v), c = v.squaredNorm(), d = u.dot(r), e = v.dot(r);
-  const double across = a * c - b * b;
-  if (!(across > parallel_edges * a * c)) return {};
-  const double s = (b * e - c * d) / across, t = (a * e - b * d) / across;
-  if (!(s > 0 && s < 1 && t > 0 && t < 1)) return {};
-  return std::array{s, t};
 }
 
 // At rest, where segments may be parallel: the least distance of an end from the other segment then.

@@ -23,12 +23,16 @@ namespace rend {
 
 class FragmentContact {
 public:
+  // `edges`: crossing_guard.h will ask for pairs of edges and faces.
+  explicit FragmentContact(bool edges = false) : pairs_(edges) {}
+
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
   long searches() const { return pairs_.searches(); }
   long sweeps() const { return pairs_.sweeps(); }
   std::size_t pairs() const { return pairs_.pairs(); } // candidates in the last step
-  void forget() { pairs_.forget(); }                   // after a state was read: pairs are searched anew
+  ContactPairs& lists() { return pairs_; }
+  void forget() { pairs_.forget(); } // after a state was read: pairs are searched anew
   std::size_t bytes() const { return pairs_.bytes(); }
 
   // Of one pair, whether or not it was found; none: nothing touches in this step.

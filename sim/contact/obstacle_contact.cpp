@@ -1,13 +1,18 @@
 #include "sim/contact/obstacle_contact.h"
 
+#include "sim/contact/edge_face.h"
+#include "sim/outside/box_face.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace rend {
 namespace {
 
-constexpr double touching = 1e-9;    // [m]
-constexpr double own_friction = 0.5; // between obstacles without a friction of their own
+constexpr double touching = 1e-9;       // [m]
+constexpr double least_overlap = 1e-10; // relative to an obstacle's size: what is less deep only touches
+constexpr double kept_share = 0.5;      // of that at the start of the step
+constexpr double own_friction = 0.5;    // between obstacles without a friction of their own
 
 using Bounds = Eigen::AlignedBox3d;
 
@@ -28,7 +33,33 @@ struct MovingSphere {
     return plane;
   }
   Weights deepest(const TriangleCorners& x) const { return nearest_in_triangle(x, sphere->next_centre); }
+  double size() const { return sphere->radius; }
+  static double distance(const TriangleCorners& x, const Vec3& centre, double radius) {
+    return (point_at(x, nearest_in_triangle(x, centre)) - centre).norm() - radius;
+  }
+  double distance_before(const TriangleCorners& x) const { return distance(x, sphere->centre, sphere->radius); }
+  double distance(const TriangleCorners& x) const { return distance(x, sphere->next_centre, sphere->radius); }
+  // Calls f(weights of a point of the face, plane, distance that it keeps), for the face at the start of the
+  // step and at its end.
+  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners& to, const F& f) const {
+    const Weights w = deepest(to);
+    if (const auto plane = stop(point_at(from, w), point_at(to, w), 0)) f(w, *plane, 0.0);
+  }
+  Vec3 carried(const Vec3& from) const {
+    return turning ? turning->to.of(turning->from.back(from))
+                   : Vec3(from + sphere->next_centre - sphere->centre);
+  }
 };
+
+// Calls f(weights of a point of the face, plane, distance that it keeps) for its corners.
+template <class F> void keep_corners_out(const BoxSeparation& start, const Plane& plane, const F& f) {
+  const double kept = kept_share * std::max(0.0, start.distance);
+  for (std::size_t k = 0; k < 3; ++k) {
+    Weights corner{};
+    corner[k] = 1;
+    f(corner, Plane{plane.normal, plane.offset + kept}, kept);
+  }
+}
 
 struct StandingBox {
   const Box* box;
@@ -40,6 +71,14 @@ struct StandingBox {
     return box->stop(from, to, margin);
   }
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
+  double size() const { return (box->high - box->low).norm(); }
+  double distance_before(const TriangleCorners& x) const { return separation(*box, x).distance; }
+  double distance(const TriangleCorners& x) const { return separation(*box, x).distance; }
+  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners&, const F& f) const {
+    const BoxSeparation start = separation(*box, from);
+    keep_corners_out(start, start.plane, f);
+  }
+  Vec3 carried(const Vec3& from) const { return from; }
 };
 
 struct MovingBox {
@@ -59,9 +98,20 @@ struct MovingBox {
     const auto plane = box->stop(way->from.back(from), way->to.back(to), margin);
     return plane ? std::optional(moved(way->to, *plane)) : std::nullopt;
   }
-  Weights deepest(const TriangleCorners& x) const {
-    return deepest_in_box({way->to.back(x[0]), way->to.back(x[1]), way->to.back(x[2])}, *box);
+  Weights deepest(const TriangleCorners& x) const { return deepest_in_box(back(way->to, x), *box); }
+  static TriangleCorners back(const Pose& pose, const TriangleCorners& x) {
+    return {pose.back(x[0]), pose.back(x[1]), pose.back(x[2])};
   }
+  double size() const { return (box->high - box->low).norm(); }
+  double distance_before(const TriangleCorners& x) const {
+    return separation(*box, back(way->from, x)).distance;
+  }
+  double distance(const TriangleCorners& x) const { return separation(*box, back(way->to, x)).distance; }
+  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners&, const F& f) const {
+    const BoxSeparation start = separation(*box, back(way->from, from));
+    keep_corners_out(start, moved(way->to, start.plane), f);
+  }
+  Vec3 carried(const Vec3& from) const { return way->to.of(way->from.back(from)); }
 };
 
 // The sides of a box outside which a point is: bits 2 a and 2 a + 1 for below and above along axis a (outcodes
@@ -91,19 +141,22 @@ void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Ou
   }
 }
 
-// The same for the deepest point of each face, using those outcodes.
+// The same for the deepest point of each face, using those outcodes. Whether any face is near.
 template <class Shape, class F>
-void for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
+bool for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
+  bool any = false;
   for (const ContactFaces::Triangle& triangle : body.faces->triangles()) {
     const auto [a, b, c] = triangle.vertex;
     if ((codes[a] & codes[b] & codes[c]) != 0) continue;
+    any = true;
     const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     const auto plane = shape.stop(point.from(), point.position(), margin);
     if (plane) f(point, *plane);
   }
+  return any;
 }
 
 // The point of the box that is nearest to x.
@@ -150,34 +203,55 @@ const RigidStep* ObstacleContact::step_of(const Box& box) const {
   return box.moves() ? &box_steps_[static_cast<std::size_t>(&box - world_.boxes.data())] : nullptr;
 }
 
-void ObstacleContact::detect(const std::vector<std::unique_ptr<ContactBody>>& bodies, ContactAnswer& answer) {
+// Calls f(shape, number of the obstacle) with those that the body can touch.
+template <class F> void ObstacleContact::each_shape(const ContactBody& body, const F& f) const {
+  if (!body.settings().obstacles) return;
+  for (std::size_t number = 1; number < world_.obstacles(); ++number)
+    if (!body.body->contact_table.excludes_obstacle(number))
+      with_shape(number, [&](const auto& shape) { f(shape, number); });
+}
+
+template <class F> void ObstacleContact::with_shape(std::size_t number, const F& f) const {
+  if (number < world_.number_of_box(0)) {
+    const Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
+    return f(MovingSphere{&sphere, step_of(sphere)});
+  }
+  const Box& box = world_.boxes[number - world_.number_of_box(0)];
+  if (const RigidStep* way = step_of(box)) return f(MovingBox{&box, way});
+  f(StandingBox{&box});
+}
+
+ContactSide ObstacleContact::side_of(std::size_t number, const Vec3& surface) const {
+  if (number >= world_.number_of_box(0)) return ContactSide::of_obstacle(surface);
+  Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
+  return sphere.falls() ? ContactSide::of(sphere) : ContactSide::of_obstacle(surface);
+}
+
+void ObstacleContact::detect(const ContactBodies& bodies, ContactAnswer& answer) {
+  near_ = false;
   for (const auto& body : bodies) {
     detect_floor(*body, answer);
-    if (!body->settings().obstacles) continue;
-    for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
-      if (body->body->contact_table.excludes_obstacle(world_.number_of_sphere(s))) continue;
-      Sphere& sphere = world_.spheres[s];
-      const MovingSphere shape{&sphere, step_of(sphere)};
-      const auto side = [&](const Vec3& at) {
-        return sphere.falls() ? ContactSide::of(sphere) : ContactSide::of_obstacle(shape.velocity_at(at));
-      };
-      detect_shape(shape, *body, world_.number_of_sphere(s), side, answer);
-    }
-    for (std::size_t b = 0; b < world_.boxes.size(); ++b) {
-      if (body->body->contact_table.excludes_obstacle(world_.number_of_box(b))) continue;
-      const Box& box = world_.boxes[b];
-      const auto add = [&](const auto& shape) {
-        const auto side = [&](const Vec3& at) { return ContactSide::of_obstacle(shape.velocity_at(at)); };
-        detect_shape(shape, *body, world_.number_of_box(b), side, answer);
-      };
-      if (const RigidStep* way = step_of(box))
-        add(MovingBox{&box, way});
-      else
-        add(StandingBox{&box});
-    }
+    each_shape(*body,
+               [&](const auto& shape, std::size_t number) { detect_shape(shape, *body, number, answer); });
   }
   for (Sphere& sphere : world_.spheres)
     if (sphere.falls()) detect_around(sphere, answer);
+}
+
+// Of a point of a body that is kept on one side of a plane.
+ContactConstraint ObstacleContact::constraint(const ContactPoint& point, const Plane& plane, std::size_t number,
+                                              const Vec3& surface, double kept, double restitution) const {
+  const ContactBody& body = *point.body;
+  const ContactTerms& terms = body.body->contact_table.obstacles[number];
+  const ContactSide other = side_of(number, surface);
+  return {.a = ContactSide::of(point, point.held(plane.normal)),
+          .b = other,
+          .normal = plane.normal,
+          .apart = plane.offset - plane.normal.dot(other.position()),
+          .kept = kept,
+          .friction = terms.friction,
+          .restitution = restitution,
+          .obstacle = number};
 }
 
 void ObstacleContact::detect_floor(const ContactBody& body, ContactAnswer& answer) const {
@@ -196,24 +270,61 @@ void ObstacleContact::detect_floor(const ContactBody& body, ContactAnswer& answe
                   .obstacle = 0});
 }
 
-// `number`: of the obstacle; `side(x)`: its side, at a place x.
-template <class Shape, class Side>
+template <class Shape>
 void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, std::size_t number,
-                                   const Side& side, ContactAnswer& answer) {
-  const ContactTerms& terms = body.body->contact_table.obstacles[number];
+                                   ContactAnswer& answer) {
   const auto add = [&](const ContactPoint& point, const Plane& plane) {
-    const ContactSide other = side(point.position());
-    answer.add({.a = ContactSide::of(point, point.held(plane.normal)),
-                .b = other,
-                .normal = plane.normal,
-                .apart = plane.offset - plane.normal.dot(other.position()),
-                .kept = body.settings().thickness,
-                .friction = terms.friction,
-                .restitution = terms.restitution,
-                .obstacle = number});
+    answer.add(constraint(point, plane, number, shape.velocity_at(point.position()), body.settings().thickness,
+                          body.body->contact_table.obstacles[number].restitution));
   };
   for_each_vertex(shape, body, codes_, add);
-  for_each_face(shape, body, codes_, add);
+  near_ = for_each_face(shape, body, codes_, add) || near_;
+}
+
+void ObstacleContact::find_crossing(const ContactBodies& bodies, std::vector<ObstacleCrossing>& found) {
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    const ContactBody& body = *bodies[b];
+    each_shape(body, [&](const auto& shape, std::size_t number) {
+      const Bounds near = shape.bounds(0);
+      codes_.resize(body.vertices());
+      for (Slot v = 0; v < body.vertices(); ++v) codes_[v] = outside(near, body.position(v));
+      const double least = -least_overlap * shape.size();
+      const auto& triangles = body.faces->triangles();
+      for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto [p, q, r] = triangles[t].vertex;
+        if ((codes_[p] & codes_[q] & codes_[r]) != 0) continue;
+        if (shape.distance({body.position(p), body.position(q), body.position(r)}) < least &&
+            shape.distance_before({body.from(p), body.from(q), body.from(r)}) >= least)
+          found.push_back({b, t, number});
+      }
+    });
+  }
+}
+
+void ObstacleContact::keep_out(const ContactBodies& bodies, const ObstacleCrossing& crossing,
+                               std::vector<ContactConstraint>& wanted) const {
+  const ContactBody& body = *bodies[crossing.body];
+  const auto& corner = body.faces->triangles()[crossing.triangle].vertex;
+  const TriangleCorners from{body.from(corner[0]), body.from(corner[1]), body.from(corner[2])};
+  const TriangleCorners to{body.position(corner[0]), body.position(corner[1]), body.position(corner[2])};
+  with_shape(crossing.number, [&](const auto& shape) {
+    shape.keep_out(from, to, [&](const Weights& weight, const Plane& plane, double kept) {
+      const ContactPoint point{&body, corner, weight};
+      wanted.push_back(constraint(point, plane, crossing.number, shape.velocity_at(point.position()), kept, 0));
+    });
+  });
+}
+
+Vec3 ObstacleContact::carried(std::size_t number, const Vec3& from) const {
+  Vec3 to = from;
+  with_shape(number, [&](const auto& shape) { to = shape.carried(from); });
+  return to;
+}
+
+Sphere* ObstacleContact::falling(std::size_t number) const {
+  if (number >= world_.number_of_box(0)) return nullptr;
+  Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
+  return sphere.falls() ? &sphere : nullptr;
 }
 
 // Contacts of a falling sphere with the floor, boxes and spheres.

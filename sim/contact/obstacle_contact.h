@@ -13,11 +13,19 @@
 #pragma once
 
 #include "sim/contact/contact_answer.h"
+#include "sim/contact/contact_fragments.h"
 #include "sim/outside/world.h"
 
 #include <memory>
 
 namespace rend {
+
+// A face that an obstacle comes through in a step.
+struct ObstacleCrossing {
+  std::uint32_t body = 0;     // index
+  std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
+  std::size_t number = 0;     // of the obstacle in the world
+};
 
 class ObstacleContact {
 public:
@@ -27,21 +35,39 @@ public:
   // start.
   void predict(double time, double step);
   // Of what was predicted, for the bodies at the ends of their steps.
-  void detect(const std::vector<std::unique_ptr<ContactBody>>& bodies, ContactAnswer& answer);
+  void detect(const ContactBodies& bodies, ContactAnswer& answer);
+
+  bool near() const { return near_; } // whether a face was near one, when it was detected
+  // Faces that overlap a box or a sphere at the ends of their steps, deeper than by rounding, and did not at
+  // their starts. (In crossing_guard.h.)
+  void find_crossing(const ContactBodies& bodies, std::vector<ObstacleCrossing>& found);
+  // What keeps each of them out: its corners on the side of the plane on which they are at the start of the
+  // step, at half of the distance; against a sphere, the point of the
+  // face that is deepest at the end of the step.
+  void keep_out(const ContactBodies& bodies, const ObstacleCrossing& crossing,
+                std::vector<ContactConstraint>& wanted) const;
+  // Where a point of an obstacle that moves as prescribed is at the end of the step.
+  Vec3 carried(std::size_t number, const Vec3& from) const;
+  Sphere* falling(std::size_t number) const; // null: it does not fall
   std::size_t bytes() const { return bytes_of(codes_) + bytes_of(sphere_steps_) + bytes_of(box_steps_); }
 
 private:
   const RigidStep* step_of(const Sphere& sphere) const; // null: it does not turn
   const RigidStep* step_of(const Box& box) const;       // null: it stands still
   void detect_floor(const ContactBody& body, ContactAnswer& answer) const;
-  template <class Shape, class Side>
-  void detect_shape(const Shape& shape, const ContactBody& body, std::size_t number, const Side& side,
-                    ContactAnswer& answer);
+  template <class Shape>
+  void detect_shape(const Shape& shape, const ContactBody& body, std::size_t number, ContactAnswer& answer);
+  ContactSide side_of(std::size_t number, const Vec3& surface) const;
+  ContactConstraint constraint(const ContactPoint& point, const Plane& plane, std::size_t number,
+                               const Vec3& surface, double kept, double restitution) const;
+  template <class F> void each_shape(const ContactBody& body, const F& f) const;
+  template <class F> void with_shape(std::size_t number, const F& f) const;
   void detect_around(Sphere& sphere, ContactAnswer& answer);
   void detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer);
 
   World& world_;
   std::vector<std::uint8_t> codes_; // scratch, one per vertex slot: outside which sides of an obstacle it is
+  bool near_ = false;
   // of this step, one for each sphere and box; empty: no sphere turns, no box moves
   std::vector<RigidStep> sphere_steps_, box_steps_;
 };
