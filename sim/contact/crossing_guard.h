@@ -14,7 +14,7 @@
 //   2  by moving the five vertices through the step as one rigid body, with all that are then pushed
 //      together, until nothing more is (contact_zone.h).
 //
-// Likewise faces that come to overlap a box or a sphere (obstacle_contact.h).
+// Likewise faces that come to overlap a box (obstacle_contact.h).
 //
 // Edges and faces that may cross are listed with those of contact_pairs.h. What crosses already is left alone:
 // a start that overlaps is refused or pushed out (start_overlap.h). Torn sides of one body are not looked

@@ -285,6 +285,7 @@ void ObstacleContact::find_crossing(const ContactBodies& bodies, std::vector<Obs
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     const ContactBody& body = *bodies[b];
     each_shape(body, [&](const auto& shape, std::size_t number) {
+      if (number < world_.number_of_box(0)) return; // against a sphere nothing is missed (for_each_face)
       const Bounds near = shape.bounds(0);
       codes_.resize(body.vertices());
       for (Slot v = 0; v < body.vertices(); ++v) codes_[v] = outside(near, body.position(v));

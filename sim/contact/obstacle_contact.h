@@ -38,7 +38,7 @@ public:
   void detect(const ContactBodies& bodies, ContactAnswer& answer);
 
   bool near() const { return near_; } // whether a face was near one, when it was detected
-  // Faces that overlap a box or a sphere at the ends of their steps, deeper than by rounding, and did not at
+  // Faces that overlap a box at the ends of their steps, deeper than by rounding, and did not at
   // their starts. (In crossing_guard.h.)
   void find_crossing(const ContactBodies& bodies, std::vector<ObstacleCrossing>& found);
   // What keeps each of them out: its corners on the side of the plane on which they are at the start of the
