@@ -18,13 +18,12 @@ void ContactAnswer::add(const ContactConstraint& contact) {
   if (contact.gap() < 0) require(contact);
 }
 
-bool ContactAnswer::require(const ContactConstraint& contact) {
+void ContactAnswer::require(const ContactConstraint& contact) {
   Answered one{.contact = contact,
                .inverse_masses = contact.a.inverse_mass() + contact.b.inverse_mass(),
                .before = contact.a.velocity_before() - contact.b.velocity_before()};
   one.along = inverse_mass_along(contact.normal, one.inverse_masses);
   if (one.along > 0) contacts_.push_back(one);
-  return one.along > 0;
 }
 
 std::uint32_t ContactAnswer::mover_of(const ContactBody& body, Slot vertex) {
@@ -242,12 +241,6 @@ void ContactAnswer::take_back() {
     one.normal_impulse = 0;
     one.visited = 0;
   }
-}
-
-Vec3 ContactAnswer::change_of(const Sphere& sphere) const {
-  for (const Mover& mover : movers_)
-    if (mover.sphere == &sphere) return mover.velocity - mover.start;
-  return Vec3::Zero();
 }
 
 void ContactAnswer::account() const {

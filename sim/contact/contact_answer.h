@@ -54,8 +54,8 @@ public:
     movers_.clear();
   }
   void add(const ContactConstraint& contact);
-  // Also one that has no negative gap yet, since others may push it there; false: neither side can be moved.
-  bool require(const ContactConstraint& contact);
+  // Also one that has no negative gap yet, since others may push it there.
+  void require(const ContactConstraint& contact);
   bool empty() const { return contacts_.empty(); }
   void solve(double step); // [s]
   void take_back();        // what solve() has changed, so that it can be called again with more contacts
@@ -66,7 +66,6 @@ public:
     for (const Mover& mover : movers_)
       if (mover.body) f(*mover.body, mover.vertex, Vec3(mover.velocity - mover.start));
   }
-  Vec3 change_of(const Sphere& sphere) const; // [m/s]
 
   std::size_t touching() const; // contacts that took an impulse
   std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_) + mover_bytes(); }

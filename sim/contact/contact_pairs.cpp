@@ -207,39 +207,50 @@ void ContactPairs::search(const Bodies& bodies, Neighbours& list) {
   for (std::size_t n = list.begin; n < list.end; ++n) list.least = std::min(list.least, pool_[n].clear);
 }
 
+// Calls look(item, triangle) for items from `begin` to `end` of one fragment and triangles of the other whose
+// boxes meet: around(item), and wide(box of the triangle).
+template <class Wide, class Around, class Look>
+void ContactPairs::each_near(const Fragment& of, const Fragment& with, std::uint32_t begin, std::uint32_t end,
+                             const Wide& wide, const Around& around, const Look& look) {
+  near_.clear();
+  boxes_.clear();
+  Box all;
+  for (std::uint32_t t = with.triangles; t < with.triangles_end; ++t) {
+    const Box box = wide(fragments_.around(fragments_.triangle(t)));
+    if (!box.intersects(of.box)) continue;
+    near_.push_back(t);
+    boxes_.push_back(box);
+    all.extend(box);
+  }
+  if (near_.empty()) return;
+  const bool many = near_.size() > 24; // so that a tree is quicker
+  const BoxTree tree(many ? boxes_ : std::vector<Box>{});
+  for (std::uint32_t item = begin; item < end; ++item) {
+    const Box box = around(item);
+    if (!all.intersects(box)) continue;
+    if (many) {
+      tree.each_in(box, [&](std::uint32_t n) { look(item, near_[n]); });
+      continue;
+    }
+    for (std::uint32_t n = 0; n < near_.size(); ++n)
+      if (boxes_[n].intersects(box)) look(item, near_[n]);
+  }
+}
+
 // For the vertices of one and the triangles of the other.
 void ContactPairs::search(const Bodies& bodies, const Neighbours& list, const Fragment& of,
                           const Fragment& with) {
   const double reach = list.skin + beside * thickness(*bodies[of.body], *bodies[with.body]);
   const bool solid = bodies[with.body]->solid();
-  near_.clear();
-  boxes_.clear();
-  Box all;
-  for (std::uint32_t t = with.triangles; t < with.triangles_end; ++t) {
-    const Box box = fragments_.around(fragments_.triangle(t));
+  const auto wide = [&](const Box& box) {
     const double depth = (1 + 2 * deepest) * list.skin + deepest * box.diagonal().norm();
-    const Box wide = grown(box, solid ? std::max(reach, depth) : reach);
-    if (!wide.intersects(of.box)) continue;
-    near_.push_back(t);
-    boxes_.push_back(wide);
-    all.extend(wide);
-  }
-  if (near_.empty()) return;
-  const bool many = near_.size() > 24; // so that a tree is quicker
-  const BoxTree tree(many ? boxes_ : std::vector<Box>{});
-  for (std::uint32_t v = of.vertices; v < of.vertices_end; ++v) {
-    const Box box = fragments_.around(v);
-    if (!all.intersects(box)) continue;
-    const auto look = [&](std::uint32_t n) {
-      try_one(*bodies[of.body], *bodies[with.body], list, {v, near_[n]});
-    };
-    if (many) {
-      tree.each_in(box, look);
-      continue;
-    }
-    for (std::uint32_t n = 0; n < near_.size(); ++n)
-      if (boxes_[n].intersects(box)) look(n);
-  }
+    return grown(box, solid ? std::max(reach, depth) : reach);
+  };
+  each_near(
+      of, with, of.vertices, of.vertices_end, wide, [&](std::uint32_t v) { return fragments_.around(v); },
+      [&](std::uint32_t v, std::uint32_t t) {
+        try_one(*bodies[of.body], *bodies[with.body], list, {v, t});
+      });
 }
 
 // Adds the two to the pool, unless they do not touch before they have moved by the skin, or in this step.
@@ -308,30 +319,12 @@ void ContactPairs::sort() {
 // step.
 void ContactPairs::search_edges(const Neighbours& list, const Fragment& of, const Fragment& with) {
   const double reach = std::max(list.skin, moved(list));
-  near_.clear();
-  boxes_.clear();
-  Box all;
-  for (std::uint32_t t = with.triangles; t < with.triangles_end; ++t) {
-    const Box wide = grown(fragments_.around(fragments_.triangle(t)), reach);
-    if (!wide.intersects(of.box)) continue;
-    near_.push_back(t);
-    boxes_.push_back(wide);
-    all.extend(wide);
-  }
-  if (near_.empty()) return;
-  const bool many = near_.size() > 24;
-  const BoxTree tree(many ? boxes_ : std::vector<Box>{});
-  for (std::uint32_t s = of.sides; s < of.sides_end; ++s) {
-    const Box box = fragments_.around(fragments_.side(s));
-    if (!all.intersects(box)) continue;
-    const auto look = [&](std::uint32_t n) { try_edge(list, {s, near_[n]}); };
-    if (many) {
-      tree.each_in(box, look);
-      continue;
-    }
-    for (std::uint32_t n = 0; n < near_.size(); ++n)
-      if (boxes_[n].intersects(box)) look(n);
-  }
+  each_near(
+      of, with, of.sides, of.sides_end, [&](const Box& box) { return grown(box, reach); },
+      [&](std::uint32_t s) { return fragments_.around(fragments_.side(s)); },
+      [&](std::uint32_t s, std::uint32_t t) {
+        try_edge(list, {s, t});
+      });
 }
 
 void ContactPairs::try_edge(const Neighbours& list, EdgeCandidate found) {

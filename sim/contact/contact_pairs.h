@@ -126,6 +126,9 @@ private:
   void search_due(const Bodies& bodies);
   double apart(const Neighbours& list) const; // [m]: M but for the moves of vertex and corners
   double moved(const Neighbours& list) const; // [m]: M, at most
+  template <class Wide, class Around, class Look>
+  void each_near(const Fragment& of, const Fragment& with, std::uint32_t begin, std::uint32_t end,
+                 const Wide& wide, const Around& around, const Look& look);
   void search(const Bodies& bodies, Neighbours& list);
   void search(const Bodies& bodies, const Neighbours& list, const Fragment& of, const Fragment& with);
   void try_one(const ContactBody& body, const ContactBody& other, const Neighbours& list, Candidate found);

@@ -22,12 +22,12 @@
 
 namespace rend {
 
-// A vertex, by the index of its body; or an obstacle, by its number in the world.
+// A vertex, by the index of its body; or a box, by its index in the world.
 struct ZonePart {
   std::uint32_t body = 0; // index
   std::uint32_t number = 0;
-  static constexpr std::uint32_t obstacle = ~std::uint32_t{0}; // in place of the index
-  bool is_obstacle() const { return body == obstacle; }
+  static constexpr std::uint32_t box = ~std::uint32_t{0}; // in place of the index
+  bool is_box() const { return body == box; }
   auto operator<=>(const ZonePart&) const = default;
 };
 
@@ -36,7 +36,7 @@ class ContactZones {
 public:
   void clear();
   bool unite(std::span<const ZonePart> parts); // false: they were in one zone already
-  // Each zone with its parts in their order: obstacles come last.
+  // Each zone with its parts in their order: boxes come last.
   std::vector<std::vector<ZonePart>> all() const;
 
 private:
@@ -45,7 +45,6 @@ private:
   std::vector<std::size_t> parent_;
 };
 
-// A vertex, or the centre of a falling sphere.
 struct ZoneMember {
   double mass = 0;                             // [kg]
   bool prescribed = false;                     // along all axes

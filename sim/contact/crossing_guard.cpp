@@ -108,10 +108,10 @@ void CrossingGuard::number(const ContactBodies& bodies) {
 
 bool CrossingGuard::find(const Step& of) {
   crossing_.clear();
-  in_obstacles_.clear();
+  in_boxes_.clear();
   if (of.pairs) find_pairs(of);
   if (of.obstacles.near() || !of.answer.empty() || !changed_.empty())
-    of.obstacles.find_crossing(of.bodies, in_obstacles_);
+    of.obstacles.find_crossing(of.bodies, in_boxes_);
   return found() > 0;
 }
 
@@ -127,8 +127,7 @@ void CrossingGuard::find_pairs(const Step& of) {
     const auto zone = changed_.find({index_[body.number], vertex});
     push(index_[body.number], vertex, zone == changed_.end() ? change : Vec3(change + zone->second.velocity));
   });
-  for (const auto& [part, change] : changed_)
-    if (!part.is_obstacle()) push(part.body, part.number, change.velocity);
+  for (const auto& [part, change] : changed_) push(part.body, part.number, change.velocity);
   for (const EdgeFacePair& pair : of.pairs->crossing(of.bodies, pushed_))
     if (Course(of.bodies, pair).comes_through()) crossing_.push_back(pair);
   std::sort(crossing_.begin(), crossing_.end());
@@ -150,7 +149,7 @@ std::vector<ContactConstraint> CrossingGuard::constraints(const Step& of) const 
                       .kept = way->apart,
                       .friction = body.terms(other).friction});
   }
-  for (const ObstacleCrossing& each : in_obstacles_) of.obstacles.keep_out(of.bodies, each, wanted);
+  for (const BoxCrossing& each : in_boxes_) of.obstacles.keep_out(of.bodies, each, wanted);
   return wanted;
 }
 
@@ -166,33 +165,28 @@ bool CrossingGuard::unite(const Step& of) {
     const ZonePart p{pair.body, pair.edge[0]}, q{pair.body, pair.edge[1]};
     grew = zones_.unite(std::array{p, q, a, b, c}) || grew;
   }
-  for (const ObstacleCrossing& each : in_obstacles_) {
+  for (const BoxCrossing& each : in_boxes_) {
     const auto [a, b, c] = corners(each.body, each.triangle);
-    const ZonePart obstacle{ZonePart::obstacle, static_cast<std::uint32_t>(each.number)};
-    grew = zones_.unite(std::array{a, b, c, obstacle}) || grew;
+    grew = zones_.unite(std::array{a, b, c, ZonePart{ZonePart::box, each.box}}) || grew;
   }
   return grew;
 }
 
-// As an obstacle moves that is in it, the first of several; or as its members do on average.
+// As a box moves that is in it, the first of several; or as its members do on average.
 CrossingGuard::Motion CrossingGuard::motion_of(const Step& of, std::span<const ZonePart> zone) {
   std::vector<ZoneMember> members;
   bool led = false;
   for (const ZonePart& part : zone) {
-    if (!part.is_obstacle()) {
-      const ContactBody& body = *of.bodies[part.body];
-      if (!body.alive(part.number)) continue;
-      const bool prescribed = body.inverse_mass(part.number).isZero(0);
-      led = led || prescribed;
-      members.push_back({.mass = 1 / body.body->inverse_mass[part.number],
-                         .prescribed = prescribed,
-                         .from = body.from(part.number),
-                         .to = body.position(part.number)});
-    } else if (const Sphere* sphere = of.obstacles.falling(part.number)) {
-      members.push_back({.mass = sphere->mass, .from = sphere->centre, .to = sphere->next_centre});
-    } else {
+    if (part.is_box())
       return {[&of, part](const Vec3& from) { return of.obstacles.carried(part.number, from); }, true};
-    }
+    const ContactBody& body = *of.bodies[part.body];
+    if (!body.alive(part.number)) continue;
+    const bool prescribed = body.inverse_mass(part.number).isZero(0);
+    led = led || prescribed;
+    members.push_back({.mass = 1 / body.body->inverse_mass[part.number],
+                       .prescribed = prescribed,
+                       .from = body.from(part.number),
+                       .to = body.position(part.number)});
   }
   return {nearest_rigid_motion(members), led};
 }
@@ -200,27 +194,19 @@ CrossingGuard::Motion CrossingGuard::motion_of(const Step& of, std::span<const Z
 void CrossingGuard::move_zones(const Step& of) {
   for (const std::vector<ZonePart>& zone : zones_.all()) {
     const Motion motion = motion_of(of, zone);
-    const auto note = [&](const ZonePart& part, double mass, const Vec3& from, const Vec3& by) {
+    for (const ZonePart& part : zone) {
+      if (part.is_box() || !of.bodies[part.body]->alive(part.number)) continue;
+      const ContactBody& body = *of.bodies[part.body];
+      Record &x = body.position(part.number), &u = body.velocity(part.number);
+      const Vec3 free = (body.inverse_mass(part.number).array() != 0).cast<double>();
+      const Vec3 from = body.from(part.number), to = motion.to(from);
+      const Vec3 by = free.cwiseProduct(to - x.vec());
+      x = Record(x.vec() + by);
+      u = Record(u.vec() + by / of.step);
       Change& change = changed_[part];
       change.velocity += by / of.step;
-      if (motion.led) change.work += mass * by.dot(motion.to(from) - from) / (of.step * of.step);
-    };
-    for (const ZonePart& part : zone) {
-      if (!part.is_obstacle()) {
-        const ContactBody& body = *of.bodies[part.body];
-        if (!body.alive(part.number)) continue;
-        Record &x = body.position(part.number), &u = body.velocity(part.number);
-        const Vec3 free = (body.inverse_mass(part.number).array() != 0).cast<double>();
-        const Vec3 from = body.from(part.number), by = free.cwiseProduct(motion.to(from) - x.vec());
-        x = Record(x.vec() + by);
-        u = Record(u.vec() + by / of.step);
-        note(part, 1 / body.body->inverse_mass[part.number], from, by);
-      } else if (Sphere* sphere = of.obstacles.falling(part.number)) {
-        const Vec3 by = motion.to(sphere->centre) - sphere->next_centre;
-        sphere->next_centre += by;
-        sphere->next_velocity += by / of.step;
-        note(part, sphere->mass, sphere->centre, by);
-      }
+      if (motion.led)
+        change.work += by.dot(to - from) / (body.body->inverse_mass[part.number] * of.step * of.step);
     }
   }
 }
@@ -234,13 +220,6 @@ void CrossingGuard::account(const Step& of) const {
   });
   for (const auto& [part, change] : changed_) {
     ContactWork work{.obstacles = change.work, .touched = true};
-    if (part.is_obstacle()) {
-      Sphere& sphere = *of.obstacles.falling(part.number);
-      const Vec3 sum = sphere.velocity + sphere.next_velocity + of.answer.change_of(sphere);
-      work.impact = change.work - 0.5 * sphere.mass * change.velocity.dot(sum);
-      sphere.contact_work += work;
-      continue;
-    }
     const ContactBody& body = *of.bodies[part.body];
     const auto first = answered.find(part);
     const Vec3 before = first == answered.end() ? Vec3(Vec3::Zero()) : first->second;

@@ -36,7 +36,7 @@
 
 namespace rend {
 
-// Pairs of an edge and a face, or of a face and an obstacle, in steps since this was made, rejected ones
+// Pairs of an edge and a face, or of a face and a box, in steps since this was made, rejected ones
 // included.
 struct CrossingFigures {
   long tried = 0;  // to be stopped by impulses, once for each round
@@ -58,7 +58,7 @@ public:
   bool acted() const { return acted_; } // in the last step
   const CrossingFigures& figures() const { return figures_; }
   std::size_t bytes() const {
-    return bytes_of(crossing_) + bytes_of(in_obstacles_) + bytes_of(pushed_) + bytes_of(index_);
+    return bytes_of(crossing_) + bytes_of(in_boxes_) + bytes_of(pushed_) + bytes_of(index_);
   }
 
 private:
@@ -78,12 +78,12 @@ private:
   bool unite(const Step& of);
   static Motion motion_of(const Step& of, std::span<const ZonePart> zone);
   void move_zones(const Step& of);
-  long found() const { return static_cast<long>(crossing_.size() + in_obstacles_.size()); }
+  long found() const { return static_cast<long>(crossing_.size() + in_boxes_.size()); }
   void account(const Step& of) const; // of zones
 
-  std::vector<EdgeFacePair> crossing_;         // now, sorted
-  std::vector<ObstacleCrossing> in_obstacles_; // now
-  std::vector<double> pushed_;                 // [m], one per fragment: by the answer and by zones, at most
+  std::vector<EdgeFacePair> crossing_; // now, sorted
+  std::vector<BoxCrossing> in_boxes_;  // now
+  std::vector<double> pushed_;         // [m], one per fragment: by the answer and by zones, at most
   ContactZones zones_;
   std::map<ZonePart, Change> changed_; // [m/s], in this step, of what is in zones: by them
   std::vector<std::uint32_t> index_;   // of a body, by its number in the scene

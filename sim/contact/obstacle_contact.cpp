@@ -1,6 +1,5 @@
 #include "sim/contact/obstacle_contact.h"
 
-#include "sim/contact/edge_face.h"
 #include "sim/outside/box_face.h"
 
 #include <algorithm>
@@ -33,33 +32,7 @@ struct MovingSphere {
     return plane;
   }
   Weights deepest(const TriangleCorners& x) const { return nearest_in_triangle(x, sphere->next_centre); }
-  double size() const { return sphere->radius; }
-  static double distance(const TriangleCorners& x, const Vec3& centre, double radius) {
-    return (point_at(x, nearest_in_triangle(x, centre)) - centre).norm() - radius;
-  }
-  double distance_before(const TriangleCorners& x) const { return distance(x, sphere->centre, sphere->radius); }
-  double distance(const TriangleCorners& x) const { return distance(x, sphere->next_centre, sphere->radius); }
-  // Calls f(weights of a point of the face, plane, distance that it keeps), for the face at the start of the
-  // step and at its end.
-  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners& to, const F& f) const {
-    const Weights w = deepest(to);
-    if (const auto plane = stop(point_at(from, w), point_at(to, w), 0)) f(w, *plane, 0.0);
-  }
-  Vec3 carried(const Vec3& from) const {
-    return turning ? turning->to.of(turning->from.back(from))
-                   : Vec3(from + sphere->next_centre - sphere->centre);
-  }
 };
-
-// Calls f(weights of a point of the face, plane, distance that it keeps) for its corners.
-template <class F> void keep_corners_out(const BoxSeparation& start, const Plane& plane, const F& f) {
-  const double kept = kept_share * std::max(0.0, start.distance);
-  for (std::size_t k = 0; k < 3; ++k) {
-    Weights corner{};
-    corner[k] = 1;
-    f(corner, Plane{plane.normal, plane.offset + kept}, kept);
-  }
-}
 
 struct StandingBox {
   const Box* box;
@@ -71,15 +44,11 @@ struct StandingBox {
     return box->stop(from, to, margin);
   }
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
-  double size() const { return (box->high - box->low).norm(); }
-  double distance_before(const TriangleCorners& x) const { return separation(*box, x).distance; }
-  double distance(const TriangleCorners& x) const { return separation(*box, x).distance; }
-  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners&, const F& f) const {
-    const BoxSeparation start = separation(*box, from);
-    keep_corners_out(start, start.plane, f);
-  }
-  Vec3 carried(const Vec3& from) const { return from; }
 };
+
+TriangleCorners back(const Pose& pose, const TriangleCorners& x) {
+  return {pose.back(x[0]), pose.back(x[1]), pose.back(x[2])};
+}
 
 struct MovingBox {
   const Box* box;
@@ -99,19 +68,6 @@ struct MovingBox {
     return plane ? std::optional(moved(way->to, *plane)) : std::nullopt;
   }
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(back(way->to, x), *box); }
-  static TriangleCorners back(const Pose& pose, const TriangleCorners& x) {
-    return {pose.back(x[0]), pose.back(x[1]), pose.back(x[2])};
-  }
-  double size() const { return (box->high - box->low).norm(); }
-  double distance_before(const TriangleCorners& x) const {
-    return separation(*box, back(way->from, x)).distance;
-  }
-  double distance(const TriangleCorners& x) const { return separation(*box, back(way->to, x)).distance; }
-  template <class F> void keep_out(const TriangleCorners& from, const TriangleCorners&, const F& f) const {
-    const BoxSeparation start = separation(*box, back(way->from, from));
-    keep_corners_out(start, moved(way->to, start.plane), f);
-  }
-  Vec3 carried(const Vec3& from) const { return way->to.of(way->from.back(from)); }
 };
 
 // The sides of a box outside which a point is: bits 2 a and 2 a + 1 for below and above along axis a (outcodes
@@ -206,25 +162,31 @@ const RigidStep* ObstacleContact::step_of(const Box& box) const {
 // Calls f(shape, number of the obstacle) with those that the body can touch.
 template <class F> void ObstacleContact::each_shape(const ContactBody& body, const F& f) const {
   if (!body.settings().obstacles) return;
-  for (std::size_t number = 1; number < world_.obstacles(); ++number)
-    if (!body.body->contact_table.excludes_obstacle(number))
-      with_shape(number, [&](const auto& shape) { f(shape, number); });
-}
-
-template <class F> void ObstacleContact::with_shape(std::size_t number, const F& f) const {
-  if (number < world_.number_of_box(0)) {
-    const Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
-    return f(MovingSphere{&sphere, step_of(sphere)});
+  const ContactTable& table = body.body->contact_table;
+  for (const Sphere& sphere : world_.spheres) {
+    const std::size_t number =
+        world_.number_of_sphere(static_cast<std::size_t>(&sphere - world_.spheres.data()));
+    if (!table.excludes_obstacle(number)) f(MovingSphere{&sphere, step_of(sphere)}, number);
   }
-  const Box& box = world_.boxes[number - world_.number_of_box(0)];
-  if (const RigidStep* way = step_of(box)) return f(MovingBox{&box, way});
-  f(StandingBox{&box});
+  for (const Box& box : world_.boxes) {
+    const std::size_t number = world_.number_of_box(static_cast<std::size_t>(&box - world_.boxes.data()));
+    if (table.excludes_obstacle(number)) continue;
+    if (const RigidStep* way = step_of(box))
+      f(MovingBox{&box, way}, number);
+    else
+      f(StandingBox{&box}, number);
+  }
 }
 
 ContactSide ObstacleContact::side_of(std::size_t number, const Vec3& surface) const {
   if (number >= world_.number_of_box(0)) return ContactSide::of_obstacle(surface);
   Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
   return sphere.falls() ? ContactSide::of(sphere) : ContactSide::of_obstacle(surface);
+}
+
+RigidStep ObstacleContact::way_of(const Box& box) const {
+  const RigidStep* way = step_of(box);
+  return way ? *way : RigidStep{};
 }
 
 void ObstacleContact::detect(const ContactBodies& bodies, ContactAnswer& answer) {
@@ -281,51 +243,56 @@ void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, 
   near_ = for_each_face(shape, body, codes_, add) || near_;
 }
 
-void ObstacleContact::find_crossing(const ContactBodies& bodies, std::vector<ObstacleCrossing>& found) {
+void ObstacleContact::find_crossing(const ContactBodies& bodies, std::vector<BoxCrossing>& found) {
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    const ContactBody& body = *bodies[b];
-    each_shape(body, [&](const auto& shape, std::size_t number) {
-      if (number < world_.number_of_box(0)) return; // against a sphere nothing is missed (for_each_face)
-      const Bounds near = shape.bounds(0);
-      codes_.resize(body.vertices());
-      for (Slot v = 0; v < body.vertices(); ++v) codes_[v] = outside(near, body.position(v));
-      const double least = -least_overlap * shape.size();
-      const auto& triangles = body.faces->triangles();
-      for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        const auto [p, q, r] = triangles[t].vertex;
-        if ((codes_[p] & codes_[q] & codes_[r]) != 0) continue;
-        if (shape.distance({body.position(p), body.position(q), body.position(r)}) < least &&
-            shape.distance_before({body.from(p), body.from(q), body.from(r)}) >= least)
-          found.push_back({b, t, number});
-      }
-    });
+    if (!bodies[b]->settings().obstacles) continue;
+    for (std::uint32_t n = 0; n < world_.boxes.size(); ++n)
+      if (!bodies[b]->body->contact_table.excludes_obstacle(world_.number_of_box(n)))
+        find_crossing(*bodies[b], {b, 0, n}, found);
   }
 }
 
-void ObstacleContact::keep_out(const ContactBodies& bodies, const ObstacleCrossing& crossing,
+// `one`: of a body and a box; with its faces.
+void ObstacleContact::find_crossing(const ContactBody& body, BoxCrossing one, std::vector<BoxCrossing>& found) {
+  const Box& box = world_.boxes[one.box];
+  const RigidStep way = way_of(box);
+  const Bounds near = MovingBox{&box, &way}.bounds(0);
+  codes_.resize(body.vertices());
+  for (Slot v = 0; v < body.vertices(); ++v) codes_[v] = outside(near, body.position(v));
+  const double least = -least_overlap * (box.high - box.low).norm();
+  const auto& triangles = body.faces->triangles();
+  for (one.triangle = 0; one.triangle < triangles.size(); ++one.triangle) {
+    const auto [p, q, r] = triangles[one.triangle].vertex;
+    if ((codes_[p] & codes_[q] & codes_[r]) != 0) continue;
+    const TriangleCorners from{body.from(p), body.from(q), body.from(r)},
+        to{body.position(p), body.position(q), body.position(r)};
+    if (separation(box, back(way.to, to)).distance < least &&
+        separation(box, back(way.from, from)).distance >= least)
+      found.push_back(one);
+  }
+}
+
+void ObstacleContact::keep_out(const ContactBodies& bodies, const BoxCrossing& crossing,
                                std::vector<ContactConstraint>& wanted) const {
   const ContactBody& body = *bodies[crossing.body];
   const auto& corner = body.faces->triangles()[crossing.triangle].vertex;
+  const Box& box = world_.boxes[crossing.box];
+  const RigidStep way = way_of(box);
   const TriangleCorners from{body.from(corner[0]), body.from(corner[1]), body.from(corner[2])};
-  const TriangleCorners to{body.position(corner[0]), body.position(corner[1]), body.position(corner[2])};
-  with_shape(crossing.number, [&](const auto& shape) {
-    shape.keep_out(from, to, [&](const Weights& weight, const Plane& plane, double kept) {
-      const ContactPoint point{&body, corner, weight};
-      wanted.push_back(constraint(point, plane, crossing.number, shape.velocity_at(point.position()), kept, 0));
-    });
-  });
+  const BoxSeparation start = separation(box, back(way.from, from));
+  const double kept = kept_share * std::max(0.0, start.distance);
+  Plane plane = moved(way.to, start.plane);
+  plane.offset += kept;
+  for (const Slot v : corner) {
+    const Vec3 surface = way.velocity(body.position(v));
+    wanted.push_back(
+        constraint(ContactPoint::at(body, v), plane, world_.number_of_box(crossing.box), surface, kept, 0));
+  }
 }
 
-Vec3 ObstacleContact::carried(std::size_t number, const Vec3& from) const {
-  Vec3 to = from;
-  with_shape(number, [&](const auto& shape) { to = shape.carried(from); });
-  return to;
-}
-
-Sphere* ObstacleContact::falling(std::size_t number) const {
-  if (number >= world_.number_of_box(0)) return nullptr;
-  Sphere& sphere = world_.spheres[number - world_.number_of_sphere(0)];
-  return sphere.falls() ? &sphere : nullptr;
+Vec3 ObstacleContact::carried(std::size_t box, const Vec3& from) const {
+  const RigidStep way = way_of(world_.boxes[box]);
+  return way.to.of(way.from.back(from));
 }
 
 // Contacts of a falling sphere with the floor, boxes and spheres.

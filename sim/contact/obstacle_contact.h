@@ -20,11 +20,11 @@
 
 namespace rend {
 
-// A face that an obstacle comes through in a step.
-struct ObstacleCrossing {
+// A face that comes to overlap a box in a step.
+struct BoxCrossing {
   std::uint32_t body = 0;     // index
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
-  std::size_t number = 0;     // of the obstacle in the world
+  std::uint32_t box = 0;      // index into the world's
 };
 
 class ObstacleContact {
@@ -38,17 +38,15 @@ public:
   void detect(const ContactBodies& bodies, ContactAnswer& answer);
 
   bool near() const { return near_; } // whether a face was near one, when it was detected
-  // Faces that overlap a box at the ends of their steps, deeper than by rounding, and did not at
-  // their starts. (In crossing_guard.h.)
-  void find_crossing(const ContactBodies& bodies, std::vector<ObstacleCrossing>& found);
-  // What keeps each of them out: its corners on the side of the plane on which they are at the start of the
-  // step, at half of the distance; against a sphere, the point of the
-  // face that is deepest at the end of the step.
-  void keep_out(const ContactBodies& bodies, const ObstacleCrossing& crossing,
+  // For crossing_guard.h: faces that overlap a box at the ends of their steps, deeper than by rounding, and did
+  // not at their starts.
+  void find_crossing(const ContactBodies& bodies, std::vector<BoxCrossing>& found);
+  // What keeps each of them out: its corners stay on the side of the plane on which they are at the start of
+  // the step, at half of the distance.
+  void keep_out(const ContactBodies& bodies, const BoxCrossing& crossing,
                 std::vector<ContactConstraint>& wanted) const;
-  // Where a point of an obstacle that moves as prescribed is at the end of the step.
-  Vec3 carried(std::size_t number, const Vec3& from) const;
-  Sphere* falling(std::size_t number) const; // null: it does not fall
+  // [m], where a point of a box is at the end of the step that is at `from` [m] at its start.
+  Vec3 carried(std::size_t box, const Vec3& from) const;
   std::size_t bytes() const { return bytes_of(codes_) + bytes_of(sphere_steps_) + bytes_of(box_steps_); }
 
 private:
@@ -61,7 +59,8 @@ private:
   ContactConstraint constraint(const ContactPoint& point, const Plane& plane, std::size_t number,
                                const Vec3& surface, double kept, double restitution) const;
   template <class F> void each_shape(const ContactBody& body, const F& f) const;
-  template <class F> void with_shape(std::size_t number, const F& f) const;
+  void find_crossing(const ContactBody& body, BoxCrossing one, std::vector<BoxCrossing>& found);
+  RigidStep way_of(const Box& box) const; // that of a standing one as well
   void detect_around(Sphere& sphere, ContactAnswer& answer);
   void detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer);
 

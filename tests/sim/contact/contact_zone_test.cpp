@@ -79,13 +79,13 @@ TEST(ContactZones, that_share_a_part_are_one) {
   EXPECT_TRUE(zones.unite(std::array{part(1), part(2)}));
   EXPECT_FALSE(zones.unite(std::array{part(2), part(1)}));
   zones.unite(std::array{part(3), part(4)});
-  zones.unite(std::array{part(5), ZonePart{ZonePart::obstacle, 1}});
+  zones.unite(std::array{part(5), ZonePart{ZonePart::box, 1}});
   EXPECT_EQ(zones.all().size(), 3u);
   zones.unite(std::array{part(2), part(3)});
   const auto all = zones.all();
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0], (std::vector{part(1), part(2), part(3), part(4)}));
-  EXPECT_TRUE(all[1].back().is_obstacle());
+  EXPECT_TRUE(all[1].back().is_box());
 }
 
 } // namespace
