@@ -34,14 +34,13 @@
 //
 // Friction λ_t takes the sliding velocity away, with |λ_t| ≤ μ λ_n, and so that λ_t·(u_t + u'_t) ≤ 0.
 //
-// All contacts of a step are one problem, solved by sweeps over them with accumulated impulses (projected
-// Gauss–Seidel) until no velocity changes by more than a tolerance, at most 12 times; if the sum of all
-// impulses then still makes energy, they are scaled down. They act on *movers*, the vertices and spheres that
-// something touches, gathered for the sweeps; a contact is visited again only where one of its movers has
-// changed. Momentum is kept to round-off.
+// All contacts of a step are one problem, solved by sweeps over them with accumulated impulses
+// (contact_sweeps.h); if the sum of all impulses then still makes energy, they are scaled down. They act on
+// *movers*, the vertices and spheres that something touches. Momentum is kept to round-off.
 #pragma once
 
 #include "sim/contact/contact_constraint.h"
+#include "sim/contact/contact_sweeps.h"
 
 namespace rend {
 
@@ -51,7 +50,8 @@ public:
   explicit ContactAnswer(bool pushes) : pushes_(pushes) {}
   void begin() { // a step
     contacts_.clear();
-    movers_.clear();
+    moved_.clear();
+    sweeps_.clear();
   }
   void add(const ContactConstraint& contact);
   // Also one that has no negative gap yet, since others may push it there.
@@ -63,67 +63,42 @@ public:
 
   // Calls f(body, vertex, Δu [m/s]) for each vertex that it has changed.
   template <class F> void each_change(const F& f) const {
-    for (const Mover& mover : movers_)
-      if (mover.body) f(*mover.body, mover.vertex, Vec3(mover.velocity - mover.start));
+    for (std::size_t m = 0; m < moved_.size(); ++m)
+      if (const Moved& mover = moved_[m]; mover.body)
+        f(*mover.body, mover.vertex, Vec3(sweeps_.movers()[m].velocity - mover.start));
   }
 
   std::size_t touching() const; // contacts that took an impulse
-  std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_) + mover_bytes(); }
+  std::size_t bytes() const {
+    return bytes_of(contacts_) + sweeps_.bytes() + bytes_of(start_) + bytes_of(moved_) + mover_bytes();
+  }
 
 private:
-  // A vertex or a sphere.
-  struct Mover {
-    Vec3 start, velocity;    // [m/s]: without contact, and with it
-    Vec3 inverse_mass;       // [1/kg] along x, y, z
+  struct Moved {             // a mover of the sweeps, of the same index
+    Vec3 start;              // [m/s], without contact
+    Vec3 position;           // [m], at the end of the step without contact
     const ContactBody* body; // null: a sphere
     Sphere* sphere;
     Slot vertex;
-    Vec3 position;    // [m], at the end of the step without contact
-    long changed = 0; // the visit that changed it last, counted from 1
   };
-  struct Part {
-    std::uint32_t mover = 0;
-    double weight = 0; // of its velocity in the approach of the contact
-    double pushed = 0; // of the impulse; 0: its side is held
-  };
-  struct Answered {
-    ContactConstraint contact;
-    Vec3 inverse_masses;               // [1/kg], of both sides, along x, y, z
-    double along = 0;                  // [1/kg], n·K n
-    Vec3 before, start = Vec3::Zero(); // [m/s], u; u' without contact
-    std::array<Part, 6> parts{};       // of a, then of b
-    std::size_t part_count = 0;
-    Vec3 surface = Vec3::Zero();  // [m/s], what obstacles add to the approach
-    double wanted = 0;            // [m/s], the least u'·n
-    double normal_impulse = 0;    // [N·s], λ_n
-    Vec3 friction = Vec3::Zero(); // [N·s], λ_t
-    long visited = 0;             // the last visit
-    double least_rebound() const; // [m/s], of u'·n; −infinity: it is no impact
-    Vec3 impulse() const { return normal_impulse * contact.normal + friction; }
-  };
+  using Row = ContactSweeps::Row;
   std::uint32_t mover_of(const ContactBody& body, Slot vertex);
   std::uint32_t mover_of(Sphere& sphere);
-  void gather(Answered& one, const ContactSide& side, double sign);
+  std::uint32_t add_mover(const Moved& mover, const Vec3& inverse_mass);
+  void gather(Row& row, const ContactSide& side, double sign);
   void gather(double step);
+  double least_rebound(std::size_t contact) const;
   void push(double step);
   void make_no_energy();
-  void sweep_all();
-  bool sweep(double tolerance);
   void write_back(double step);
-  bool changed_since(const Answered& one) const;
-  Vec3 approach(const Answered& one) const;
-  void apply(const Answered& one, const Vec3& impulse, double tolerance);
-  void press(Answered& one, double tolerance);
-  void rub(Answered& one, double tolerance);
-  static Vec3 slowing(const Answered& one, const Vec3& u);
-
   std::size_t mover_bytes() const;
 
   bool pushes_;
-  std::vector<Answered> contacts_;
-  std::vector<Mover> movers_;
+  std::vector<ContactConstraint> contacts_;
+  ContactSweeps sweeps_;    // its rows are those of the contacts, of the same index
+  std::vector<Vec3> start_; // [m/s], one per contact: u' without contact
+  std::vector<Moved> moved_;
   std::vector<std::vector<std::uint32_t>> mover_of_; // scratch, per body one per vertex slot; none: no mover
-  long visits_ = 0;
 };
 
 } // namespace rend
