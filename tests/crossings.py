@@ -8,7 +8,7 @@ A crossing is an edge of one face that passes through another face, both in full
 either side of the plane of the face, each at least 1e-9 of the scene's size away from it, and it meets the
 plane within the face, as far from its sides. Faces and edges that share a vertex are left out, and so are
 pairs that no <contact> asks for: those within a fragment without `self`, those of bodies without `fragments`
-and, with spheres and boxes, without `obstacles`. Polygons are taken as the triangles around their first
+and, with spheres, boxes and meshes, without `obstacles`. Polygons are taken as the triangles around their first
 corner.
 
 Prints for each preset: frames, frames with crossings, crossings in all, the most in one frame. Exits 1 if there

@@ -143,6 +143,12 @@ def add_obstacles(scene):
         if obstacle["kind"] == "sphere":
             bpy.ops.mesh.primitive_uv_sphere_add(radius=obstacle["radius"], segments=64, ring_count=32)
             bpy.ops.object.shade_smooth()
+        elif obstacle["kind"] == "mesh":
+            mesh = bpy.data.meshes.new(obstacle["name"])
+            mesh.from_pydata(obstacle["points"], [], obstacle["triangles"])
+            whole = bpy.data.objects.new(obstacle["name"], mesh)
+            bpy.context.collection.objects.link(whole)
+            bpy.context.view_layer.objects.active = whole
         else:
             bpy.ops.mesh.primitive_cube_add(size=1)
             bpy.context.object.scale = obstacle["size"]

@@ -35,6 +35,8 @@ std::vector<ObstacleFigures> obstacles_of(const Scene& scene) {
     add(world.number_of_sphere(s), "sphere", s + 1, world.spheres[s].name);
   for (std::size_t b = 0; b < world.boxes.size(); ++b)
     add(world.number_of_box(b), "box", b + 1, world.boxes[b].name);
+  for (std::size_t m = 0; m < world.meshes.size(); ++m)
+    add(world.number_of_mesh(m), "obstacle", m + 1, world.meshes[m].name);
   return all;
 }
 
@@ -44,8 +46,12 @@ std::string untouched_in_words(const Scene& scene) {
   for (const ObstacleFigures& one : obstacles_of(scene)) {
     if (one.touched || one.kind == "floor") continue;
     const std::size_t n = one.number - 1;
+    const auto middle = [&](const auto& obstacle) -> Vec3 {
+      return obstacle.pose(scene.time()).of(obstacle.middle());
+    };
     const Vec3 at = one.kind == "sphere" ? world.spheres[n].centre
-                                         : world.boxes[n].pose(scene.time()).of(world.boxes[n].middle());
+                    : one.kind == "box"  ? middle(world.boxes[n])
+                                         : middle(world.meshes[n]);
     out += fmt::format("{}{} at ({:.4g}, {:.4g}, {:.4g}) m", out.empty() ? "" : ", ",
                        world.called(one.obstacle), at.x(), at.y(), at.z());
   }

@@ -28,6 +28,13 @@ auto depth_in(const Box& box, double time) {
   };
 }
 
+auto depth_in(const StandingMesh& mesh, double time) {
+  return [&mesh, pose = mesh.obstacle->pose(time)](const Vec3& there) {
+    const Vec3 x = pose.back(there);
+    return mesh.tree.inside(x) ? mesh.tree.nearest(x).distance : 0;
+  };
+}
+
 // Whether a vertex lies deeper than that; `depth`: of a point.
 template <class F> bool has_vertex_deeper_than(double least, const Body& body, F&& depth) {
   const CellIndex& cells = body.map->cells(Vertex);
@@ -49,10 +56,17 @@ PassThrough::PassThrough(const Scene& scene) : scene_(scene) {
   const World& world = scene.world();
   for (const auto& body : scene.bodies()) {
     const bool obstacles = !(body->contact && body->contact->obstacles);
-    const Watched watched{body.get(), hair * size_at_rest(*body), world.floor && !body->floor_contact,
-                          obstacles && !world.spheres.empty(), obstacles && !world.boxes.empty()};
-    if (watched.floor || watched.spheres || watched.boxes) bodies_.push_back(watched);
+    const Watched watched{body.get(),
+                          hair * size_at_rest(*body),
+                          world.floor && !body->floor_contact,
+                          obstacles && !world.spheres.empty(),
+                          obstacles && !world.boxes.empty(),
+                          obstacles && !world.meshes.empty()};
+    if (watched.floor || watched.spheres || watched.boxes || watched.meshes) bodies_.push_back(watched);
   }
+  const bool any = std::ranges::any_of(bodies_, [](const Watched& one) { return one.meshes; });
+  for (const MeshObstacle& mesh : world.meshes)
+    if (any && mesh.surface.closed) meshes_.emplace_back(mesh);
 }
 
 void PassThrough::look(long frame) {
@@ -71,6 +85,10 @@ void PassThrough::look(long frame) {
     if (watched.boxes && lies_in_one(watched.hair, body, world.boxes, scene_.time())) {
       watched.boxes = false;
       tell(body, frame, "a box", "obstacles");
+    }
+    if (watched.meshes && lies_in_one(watched.hair, body, meshes_, scene_.time())) {
+      watched.meshes = false;
+      tell(body, frame, "an obstacle", "obstacles");
     }
   }
 }

@@ -1,7 +1,9 @@
-// Whether pictures show a body inside of what it has no <contact> with: the floor, a sphere or a box. All of
-// these are drawn, so this looks like a mistake, and is told; a body that stays clear of them needs no contact.
+// Whether pictures show a body inside of what it has no <contact> with: the floor, a sphere, a box, or a mesh
+// that is closed. All of these are drawn, so this looks like a mistake, and is told; a body that stays clear of
+// them needs no contact.
 #pragma once
 
+#include "sim/contact/standing_mesh.h"
 #include "sim/scene/scene.h"
 
 #include <string>
@@ -23,13 +25,14 @@ public:
 private:
   struct Watched {
     const Body* body;
-    double hair;                // [m]
-    bool floor, spheres, boxes; // whether it is looked for there
+    double hair;                        // [m]
+    bool floor, spheres, boxes, meshes; // whether it is looked for there
   };
   void tell(const Body& body, long frame, const char* what, const char* remedy);
 
   const Scene& scene_;
-  std::vector<Watched> bodies_; // without those that have nothing to pass through
+  std::vector<Watched> bodies_;      // without those that have nothing to pass through
+  std::vector<StandingMesh> meshes_; // those that are closed; empty where no body passes through
   std::vector<std::string> notes_;
 };
 

@@ -92,6 +92,7 @@ SkinPictures pictures_on_skin(const PictureSettings& settings, const Scene& scen
     return {};
   add_materials(all, scene.world().spheres.size(), settings.spheres);
   add_materials(all, scene.world().boxes.size(), settings.boxes);
+  add_materials(all, scene.world().meshes.size(), settings.meshes);
   return all;
 }
 

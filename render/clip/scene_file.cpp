@@ -42,6 +42,16 @@ Json obstacles_of(const World& world, const PictureSettings& picture) {
                    {"kind", "box"},
                    {"size", coordinates_of(world.boxes[n].high - world.boxes[n].low)},
                    {"colour", text_of(look_at(picture.boxes, n).colour)}});
+  for (std::size_t n = 0; n < world.meshes.size(); ++n) {
+    const MeshObstacle& mesh = world.meshes[n];
+    Json points = Json::array();
+    for (const Vec3& x : mesh.surface.points) points.push_back(coordinates_of(x - mesh.middle()));
+    all.push_back({{"name", fmt::format("obstacle {}", n + 1)},
+                   {"kind", "mesh"},
+                   {"points", std::move(points)},
+                   {"triangles", mesh.surface.triangles},
+                   {"colour", text_of(look_at(picture.meshes, n).colour)}});
+  }
   return all;
 }
 
@@ -56,6 +66,7 @@ Json poses_of(const World& world, double time) {
   Json all = Json::array();
   for (const Sphere& sphere : world.spheres) all.push_back(json_of(pose_of(sphere, time), sphere.start));
   for (const Box& box : world.boxes) all.push_back(json_of(box.pose(time), box.middle()));
+  for (const MeshObstacle& mesh : world.meshes) all.push_back(json_of(mesh.pose(time), mesh.middle()));
   return all;
 }
 

@@ -38,7 +38,7 @@ public:
     const Contacts* contacts = scene_.contacts();
     if (!contacts) return;
     for (const auto& each : contacts->bodies())
-      if (each->faces)
+      if (each->body && each->faces)
         add(PassStage::Contact, "obstacles, and " + each->body->name, each->faces->triangles().size(),
             "triangles", 1, each->bytes());
     if (const FragmentContact* fragments = contacts->fragments())

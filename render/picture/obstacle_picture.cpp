@@ -3,12 +3,14 @@
 #include "sim/base/math.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rend {
 namespace {
 
 constexpr int sphere_segments = 16; // per eighth of a turn: deviates from a circle by 0.06 % of the radius
 constexpr int box_segments = 3;
+constexpr double crease = 0.766;  // the cosine of 40 degrees: a sharper edge of a mesh is one in a picture
 constexpr double rounding = 0.02; // radius of a box's rounded edges, in parts of its smallest size
 
 // Positions along one side of a cube: from −1 to 1, with 0 twice, once for each half.
@@ -55,6 +57,11 @@ template <> const Fields<BoxLook>& fields_of() {
   return fields;
 }
 
+template <> const Fields<MeshLook>& fields_of() {
+  static const Fields<MeshLook> fields{colour_field(&MeshLook::colour, text("colour", "#rrggbb"))};
+  return fields;
+}
+
 FrameBody rounded_box(const Vec3& centre, const Vec3& core, double radius, int segments, const Colour& colour) {
   FrameBody out;
   out.edges = false;
@@ -84,14 +91,42 @@ FrameBody picture_of(const Box& box, const BoxLook& look, double time) {
   const double radius = rounding * size.minCoeff();
   FrameBody picture =
       rounded_box(box.middle(), 0.5 * size - Vec3::Constant(radius), radius, box_segments, look.colour);
-  if (!box.moves()) return picture;
-  const Pose pose = box.pose(time);
+  return box.moves() ? moved(std::move(picture), box.pose(time)) : picture;
+}
+
+FrameBody moved(FrameBody picture, const Pose& pose) {
   const auto as_vector = [](const std::array<float, 3>& v) { return Vec3(v[0], v[1], v[2]); };
   for (Corner& corner : picture.corners) {
     corner.position = as_floats(pose.of(as_vector(corner.position)));
     corner.normal = as_floats(pose.turn * as_vector(corner.normal));
   }
   return picture;
+}
+
+FrameBody picture_of(const MeshObstacle& mesh, const MeshLook& look) {
+  const ObstacleSurface& surface = mesh.surface;
+  std::vector<Vec3> area; // [m²], twice, one per triangle: its normal
+  std::vector<std::vector<std::uint32_t>> around(surface.points.size()); // the triangles at each point
+  for (const auto& [a, b, c] : surface.triangles) {
+    for (const std::uint32_t corner : {a, b, c})
+      around[corner].push_back(static_cast<std::uint32_t>(area.size()));
+    const Vec3& x = surface.points[a];
+    area.push_back((surface.points[b] - x).cross(surface.points[c] - x));
+  }
+  FrameBody out;
+  out.edges = false;
+  out.two_sided = !surface.closed;
+  for (std::size_t t = 0; t < area.size(); ++t)
+    for (const std::uint32_t corner : surface.triangles[t]) {
+      Vec3 normal = Vec3::Zero();
+      for (const std::uint32_t other : around[corner])
+        if (area[other].dot(area[t]) > crease * area[other].norm() * area[t].norm()) normal += area[other];
+      out.corners.push_back({as_floats(surface.points[corner]),
+                             as_floats(normal.normalized()),
+                             {look.colour[0], look.colour[1], look.colour[2], 255},
+                             {0, 0, 0, 0}});
+    }
+  return out;
 }
 
 } // namespace rend

@@ -18,11 +18,12 @@ struct PictureSettings {
   CameraSettings camera = {};
   ImageSettings image = {};
   std::optional<HudSettings> hud = {}; // none: nothing is written over the pictures
-  // Of the scene's bodies, spheres and boxes, in their order. Those that a list does not reach look as by
-  // default.
+  // Of the scene's bodies, spheres, boxes and meshes, in their order. Those that a list does not reach look
+  // as by default.
   std::vector<LookSettings> looks = {};
   std::vector<SphereLook> spheres = {};
   std::vector<BoxLook> boxes = {};
+  std::vector<MeshLook> meshes = {};
 };
 
 // For settings that a program made, which no reader has looked at. UserError: a number that is not finite or

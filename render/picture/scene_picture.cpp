@@ -289,6 +289,9 @@ FrameBuilder::FrameBuilder(const PictureSettings& settings, Scene& scene, double
   if (settings.hud && hud_available()) hud_.emplace(*settings.hud, scene, frames);
   spheres_.resize(scene.world().spheres.size());
   boxes_.resize(scene.world().boxes.size());
+  for (std::size_t n = 0; n < scene.world().meshes.size(); ++n)
+    meshes_.push_back(
+        picture_of(scene.world().meshes[n], n < settings.meshes.size() ? settings.meshes[n] : MeshLook{}));
   std::vector<LookSettings> looks = settings.looks;
   looks.resize(scene.bodies().size());
   const double start = wall_clock();
@@ -324,6 +327,9 @@ FrameState FrameBuilder::state() {
     state.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
   for (std::size_t n = 0; n < boxes_.size(); ++n)
     state.obstacles.push_back(picture_of(world.boxes[n], boxes_[n], scene_.time()));
+  for (std::size_t n = 0; n < meshes_.size(); ++n)
+    state.obstacles.push_back(world.meshes[n].moves() ? moved(meshes_[n], world.meshes[n].pose(scene_.time()))
+                                                      : meshes_[n]);
   seconds_ += wall_clock() - start;
   return state;
 }

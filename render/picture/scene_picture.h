@@ -89,6 +89,7 @@ private:
   ImageSettings image_;
   std::vector<SphereLook> spheres_; // one each
   std::vector<BoxLook> boxes_;
+  std::vector<FrameBody> meshes_; // as the preset puts them
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
   std::optional<HudWriter> hud_; // none: the preset has no HUD
   std::size_t fragments_seen_ = 0;

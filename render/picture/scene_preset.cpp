@@ -63,12 +63,13 @@ template <class Look> ElementType drawn(const ElementType& obstacle) {
 }
 
 const ElementType& drawn_world_type() {
-  static ElementType sphere, box; // for the world's children to point to
+  static ElementType sphere, box, mesh; // for the world's children to point to
   static const ElementType type = [] {
     ElementType world = world_type();
     for (ChildType& child : world.children) {
       if (child.type->name == "sphere") child.type = &(sphere = drawn<SphereLook>(*child.type));
       if (child.type->name == "box") child.type = &(box = drawn<BoxLook>(*child.type));
+      if (child.type->name == "obstacle") child.type = &(mesh = drawn<MeshLook>(*child.type));
     }
     return world;
   }();
@@ -166,7 +167,7 @@ std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
       check_colours(*body, *look);
     }
   if (const PresetNode* world = scene->child("world"))
-    for (const char* name : {"sphere", "box"})
+    for (const char* name : {"sphere", "box", "obstacle"})
       for (const PresetNode* obstacle : world->all(name)) colour_of(*obstacle, "colour");
   if (const PresetNode* camera = scene->child("camera")) check_framing(camera_settings(*camera));
   return scene;
@@ -224,6 +225,8 @@ PictureSettings picture_settings(const PresetNode& scene) {
     for (const PresetNode* node : world->all("sphere"))
       settings.spheres.push_back(read_settings<SphereLook>(*node));
     for (const PresetNode* node : world->all("box")) settings.boxes.push_back(read_settings<BoxLook>(*node));
+    for (const PresetNode* node : world->all("obstacle"))
+      settings.meshes.push_back(read_settings<MeshLook>(*node));
   }
   return settings;
 }

@@ -88,6 +88,12 @@ Bounds bounds_of(const Box& box, const Pose& pose) {
   return around;
 }
 
+Bounds bounds_of(const MeshObstacle& mesh, const Pose& pose) {
+  Bounds around;
+  for (const Vec3& x : mesh.surface.points) around.extend(in_reach(pose.of(x)));
+  return around;
+}
+
 // What the camera should show of an obstacle that moves: its start, and its path as far as it lies in the
 // bodies' box; all of it would make the bodies small. `at`: its bounds at a time [s].
 template <class At> Bounds bounds_of_path(const Bounds& bodies, double duration, At&& at) {
@@ -98,8 +104,11 @@ template <class At> Bounds bounds_of_path(const Bounds& bodies, double duration,
   return start.merged(bodies.intersection(path));
 }
 
-Bounds bounds_to_frame(const Box& box, const Bounds& bodies, double duration) {
-  return bounds_of_path(bodies, duration, [&](double time) { return bounds_of(box, box.pose(time)); });
+// A box or a mesh.
+template <class Obstacle>
+Bounds bounds_to_frame(const Obstacle& obstacle, const Bounds& bodies, double duration) {
+  return bounds_of_path(bodies, duration,
+                        [&](double time) { return bounds_of(obstacle, obstacle.pose(time)); });
 }
 
 Bounds bounds_to_frame(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
@@ -133,9 +142,13 @@ Bounds bounds_to_frame(const Scene& scene, double duration) {
   const World& world = scene.world();
   for (const Box& box : world.boxes)
     if (!box.moves()) room.extend(box.low).extend(box.high);
+  for (const MeshObstacle& mesh : world.meshes)
+    if (!mesh.moves()) room.extend(mesh.bounds);
   const Bounds bodies = room;
   for (const Box& box : world.boxes)
     if (box.moves()) room.extend(bounds_to_frame(box, bodies, duration));
+  for (const MeshObstacle& mesh : world.meshes)
+    if (mesh.moves()) room.extend(bounds_to_frame(mesh, bodies, duration));
   for (const Sphere& sphere : world.spheres)
     room.extend(bounds_to_frame(sphere, bodies, world.gravity, duration));
   if (world.floor) room.min().z() = std::max(room.min().z(), std::min(world.floor->z, start.min().z()));

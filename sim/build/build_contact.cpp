@@ -12,11 +12,12 @@ void say_what_it_passes(Body& body, const World& world, const std::optional<Cont
   const bool floor = contact && contact->floor, obstacles = contact && contact->obstacles;
   const bool through_floor = world.floor && !floor, through_obstacles = world.has_obstacles() && !obstacles;
   if (!through_floor && !through_obstacles) return;
+  const char* obstacles_in_words = world.meshes.empty() ? "spheres and boxes" : "obstacles";
   body.left_out.push_back(fmt::format(
       "contact: '{}' will pass through {}: {}", body.name,
-      through_floor && through_obstacles ? "the floor, spheres and boxes"
+      through_floor && through_obstacles ? fmt::format("the floor, {}", obstacles_in_words)
       : through_floor                    ? "the floor"
-                                         : "spheres and boxes",
+                                         : obstacles_in_words,
       !contact ? fmt::format("add <contact with=\"{}\"/>", through_obstacles ? "obstacles" : "floor")
                : fmt::format("add `{}` to its <contact with>", through_obstacles ? "obstacles" : "floor")));
 }
@@ -29,7 +30,7 @@ void check_world(const ContactSettings& contact, const World& world) {
     fail("the body is in contact with nothing", "with=\"obstacles\", or leave <contact> out");
   if (contact.obstacles && !world.floor && !world.has_obstacles())
     fail("there is neither a floor nor an obstacle to be in contact with",
-         "add <floor z=\"0\"/>, <sphere> or <box> to <world>");
+         "add <floor z=\"0\"/>, <sphere>, <box> or <obstacle> to <world>");
   if (contact.floor && !contact.obstacles && !world.floor)
     fail("there is no floor to be in contact with", "add <world><floor z=\"0\"/></world>");
 }

@@ -1,5 +1,6 @@
 #include "sim/build/read_world.h"
 
+#include "sim/build/read_obstacle.h"
 #include "sim/build/read_settings.h"
 
 namespace rend {
@@ -20,16 +21,6 @@ const ElementType& wind_type() {
   return type;
 }
 
-const ElementType& key_type() {
-  static const ElementType type{"key",
-                                "where an obstacle is at a time, and how it is turned; between keys it moves "
-                                "smoothly, and is at rest at the "
-                                "first and last one",
-                                attributes_of<ObstacleKey>(),
-                                {}};
-  return type;
-}
-
 const ElementType& sphere_type() {
   static const ElementType type{"sphere",
                                 "a rigid sphere, which bodies with <contact> collide with",
@@ -46,12 +37,6 @@ const ElementType& box_type() {
   return type;
 }
 
-std::vector<ObstacleKey> read_keys(const PresetNode& obstacle) {
-  std::vector<ObstacleKey> keys;
-  for (const PresetNode* key : obstacle.all("key")) keys.push_back(read_settings<ObstacleKey>(*key));
-  return keys;
-}
-
 Sphere read_sphere(const PresetNode& node) {
   auto settings = read_settings<SphereSettings>(node);
   settings.keys = read_keys(node);
@@ -66,12 +51,31 @@ Box read_box(const PresetNode& node) {
 
 } // namespace
 
+const ElementType& key_type() {
+  static const ElementType type{"key",
+                                "where an obstacle is at a time, and how it is turned; between keys it moves "
+                                "smoothly, and is at rest at the "
+                                "first and last one",
+                                attributes_of<ObstacleKey>(),
+                                {}};
+  return type;
+}
+
+std::vector<ObstacleKey> read_keys(const PresetNode& obstacle) {
+  std::vector<ObstacleKey> keys;
+  for (const PresetNode* key : obstacle.all("key")) keys.push_back(read_settings<ObstacleKey>(*key));
+  return keys;
+}
+
 const ElementType& world_type() {
-  static const ElementType type{
-      "world",
-      "gravity, floor, obstacles and wind",
-      attributes_of<World>(),
-      {{&floor_type(), 0, 1}, {&sphere_type(), 0, -1}, {&box_type(), 0, -1}, {&wind_type(), 0, 1}}};
+  static const ElementType type{"world",
+                                "gravity, floor, obstacles and wind",
+                                attributes_of<World>(),
+                                {{&floor_type(), 0, 1},
+                                 {&sphere_type(), 0, -1},
+                                 {&box_type(), 0, -1},
+                                 {&obstacle_type(), 0, -1},
+                                 {&wind_type(), 0, 1}}};
   return type;
 }
 
@@ -82,6 +86,7 @@ World read_world(const PresetNode* node) {
   if (const PresetNode* wind = node->child("wind")) world.wind = read_settings<Wind>(*wind);
   for (const PresetNode* sphere : node->all("sphere")) world.spheres.push_back(read_sphere(*sphere));
   for (const PresetNode* box : node->all("box")) world.boxes.push_back(read_box(*box));
+  for (const PresetNode* obstacle : node->all("obstacle")) world.meshes.push_back(read_obstacle(*obstacle));
   check_world(world);
   return world;
 }

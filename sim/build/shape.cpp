@@ -38,6 +38,12 @@ template <> const Fields<Placement>& fields_of() {
   return fields;
 }
 
+std::vector<AttributeType> attributes_at_rest() {
+  std::vector<AttributeType> all = attributes_of<Placement>();
+  std::erase_if(all, [](const AttributeType& one) { return one.name == "velocity" || one.name == "spin"; });
+  return all;
+}
+
 void Placement::apply(std::vector<Vec3>& points) const {
   const Eigen::Matrix3d turn =
       scale * rotation_about(2, rotate.z()) * rotation_about(1, rotate.y()) * rotation_about(0, rotate.x());

@@ -7,6 +7,7 @@
 #include "sim/base/settings.h"
 #include "sim/body/body.h"
 #include "sim/mesh/bar.h"
+#include "sim/mesh/reader.h"
 #include "sim/mesh/sheet.h"
 #include "sim/mesh/tube.h"
 
@@ -32,6 +33,7 @@ struct Placement {
   void apply(std::vector<Vec3>& points) const; // [m]
 };
 template <> const Fields<Placement>& fields_of();
+std::vector<AttributeType> attributes_at_rest(); // those of a Placement but for how it starts to move
 
 struct MeshSettings {
   std::string file = {};            // relative to the preset; of settings that a program made, to where it runs
@@ -39,6 +41,8 @@ struct MeshSettings {
   SettingsSource source = {};
 };
 template <> const Fields<MeshSettings>& fields_of();
+// A mesh file that settings name. UserError, with its place in the preset or in the mesh.
+MeshFile read_mesh_of(const SettingsSource& source, const std::string& file);
 
 // An empty map, for rules to begin with.
 struct CreateSettings {

@@ -27,18 +27,20 @@ template <> const Fields<MeshSettings>& fields_of() {
   return fields;
 }
 
+MeshFile read_mesh_of(const SettingsSource& source, const std::string& file) {
+  try {
+    return read_mesh(mesh_path(source.place(), file));
+  } catch (const UserError& error) {
+    if (error.code == Exit::BadInput) throw; // says where in the mesh
+    throw UserError(error.code, source.place("file"), error.what(),
+                    error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
+                                                : error.hint);
+  }
+}
+
 void make_map(Body& body, const MeshSettings& shape, const Placement& place) {
   check_settings(shape);
-  MeshFile file = [&] {
-    try {
-      return read_mesh(mesh_path(shape.source.place(), shape.file));
-    } catch (const UserError& error) {
-      if (error.code == Exit::BadInput) throw; // says where in the mesh
-      throw UserError(error.code, shape.source.place("file"), error.what(),
-                      error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
-                                                  : error.hint);
-    }
-  }();
+  MeshFile file = read_mesh_of(shape.source, shape.file);
   if (PolygonMesh* polygons = std::get_if<PolygonMesh>(&file.mesh); polygons && !shape.texture_coordinates)
     polygons->texture.clear();
   if (shape.texture_coordinates && !file.texture_note.empty()) file.notes.push_back(file.texture_note);

@@ -6,11 +6,34 @@
 namespace rend {
 
 ContactBody::ContactBody(Body& body_, ContactIn in, std::size_t number_)
-    : body(&body_), number(number_), in_(in) {
+    : body(&body_), number(number_), in_(in), from_(&body_.map->position().values()),
+      position_(&body_.next.position), velocity_(&body_.next.velocity) {
   if (settings().faces()) faces.emplace(*body_.map, body_.boundary());
 }
 
-void ContactBody::prepare(double time) {
+ContactBody::ContactBody(const MeshObstacle& mesh, std::size_t obstacle_, std::size_t number_, double thickness)
+    : obstacle(std::make_unique<ObstacleVertices>(mesh, obstacle_, thickness)), number(number_),
+      from_(&obstacle->from), position_(&obstacle->position), velocity_(&obstacle->velocity) {
+  faces.emplace(mesh.surface);
+  changed = false;
+}
+
+const ContactTerms& ContactBody::terms(const ContactBody& other) const {
+  CHECK(body);
+  const auto& table = other.body ? body->contact_table.bodies : body->contact_table.obstacles;
+  const std::size_t n = other.body ? other.number : other.obstacle->number;
+  CHECK(n < table.size());
+  return table[n];
+}
+
+bool ContactBody::meets(const ContactBody& other) const {
+  if (!body) return other.body && other.meets(*this);
+  const ContactSettings& its = other.settings();
+  return (other.body ? settings().fragments && its.fragments : settings().obstacles) && !terms(other).excluded;
+}
+
+void ContactBody::prepare(double time, double step) {
+  if (obstacle) return obstacle->move(time, step);
   changed = faces && faces->update();
   of_start_ = in_ == ContactIn::Result || body->staggered;
   held_.clear();

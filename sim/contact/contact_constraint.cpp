@@ -27,4 +27,21 @@ double ContactSide::work_of_supports(const Vec3& impulse) const {
   return sphere_ ? 0 : point_.work_of_supports(impulse);
 }
 
+ContactConstraint contact_between(const ContactPoint& a, const ContactPoint& b, const Vec3& normal,
+                                  double kept) {
+  if (!a.body->body) return contact_between(b, a, -normal, kept);
+  const ContactTerms& terms = a.body->terms(*b.body);
+  const bool obstacle = !b.body->body;
+  const ContactSide other =
+      obstacle ? ContactSide::of_obstacle(b.velocity()) : ContactSide::of(b, b.held(normal));
+  return {.a = ContactSide::of(a, a.held(normal)),
+          .b = other,
+          .normal = normal,
+          .apart = obstacle ? kept + normal.dot(b.position()) : kept,
+          .kept = kept,
+          .friction = terms.friction,
+          .restitution = terms.restitution,
+          .obstacle = obstacle ? std::optional(b.body->obstacle->number) : std::nullopt};
+}
+
 } // namespace rend

@@ -53,4 +53,9 @@ struct ContactConstraint {
   double gap() const { return normal.dot(a.position() - b.position()) - apart; } // [m], at the end of the step
 };
 
+// Of two bodies, or of a body and an obstacle, which becomes side b: they are to be `kept` [m] apart along
+// `normal`, from b to a. With their friction and restitution.
+ContactConstraint contact_between(const ContactPoint& a, const ContactPoint& b, const Vec3& normal,
+                                  double kept);
+
 } // namespace rend

@@ -1,5 +1,5 @@
 // What others can touch of a body: the faces of its boundary as triangles, those of a solid counter-clockwise
-// as seen from outside at rest. Listed anew after edits.
+// as seen from outside at rest. Listed anew after edits. Those of a mesh obstacle are its triangles.
 //
 // A face becomes the same triangles as where it is drawn and exported (boundary_triangle.h): what is seen is
 // what is kept apart.
@@ -10,6 +10,7 @@
 
 #include "sim/base/bytes.h"
 #include "sim/boundary/boundary.h"
+#include "sim/outside/mesh_obstacle.h"
 
 #include <array>
 #include <vector>
@@ -19,12 +20,13 @@ namespace rend {
 class ContactFaces {
 public:
   ContactFaces(EmbeddedMap& map, Boundary& boundary); // the boundary of the map, which outlives this
+  explicit ContactFaces(const ObstacleSurface& surface);
 
   bool update(); // after edits; false: nothing changed since this was last listed
 
   struct Triangle {
     std::array<Slot, 3> vertex;
-    Slot face; // slot of <0,1>
+    Slot face; // slot of <0,1>; of an obstacle the index of its triangle
   };
   static_assert(sizeof(Triangle) == 16);
   const std::vector<Triangle>& triangles() const { return triangles_; } // in the order of the boundary
@@ -32,8 +34,8 @@ public:
 
 private:
   void list();
-  const EmbeddedMap& map_;
-  Boundary& boundary_;
+  const EmbeddedMap* map_ = nullptr; // null: of an obstacle
+  Boundary* boundary_ = nullptr;
   long revision_ = 0;               // of the boundary, when this was listed
   std::vector<Triangle> triangles_; // those of a face one after another
 };

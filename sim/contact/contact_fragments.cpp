@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace rend {
 
@@ -27,12 +28,22 @@ void ContactFragments::list(const ContactBody& body, BodyEntry& of) {
     of.face_fragment.push_back(number[label[map.cells(FaceOfVolume).first_dart(triangle.face).value]]);
 }
 
+// A mesh obstacle is one fragment, of whatever parts it consists.
+void ContactFragments::list_obstacle(const ContactBody& body, BodyEntry& of) {
+  of = {};
+  of.vertices.resize(body.vertices());
+  std::iota(of.vertices.begin(), of.vertices.end(), Slot{0});
+  of.vertex_fragment.resize(body.vertices(), 0);
+  of.face_fragment.resize(body.faces->triangles().size(), 0);
+  of.fragments = 1;
+}
+
 bool ContactFragments::update(const ContactBodies& bodies) {
   of_.resize(bodies.size());
   bool changed = !listed_;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b]->settings().fragments || (listed_ && !bodies[b]->changed)) continue;
-    list(*bodies[b], of_[b]);
+    if (!bodies[b]->meets_faces() || (listed_ && !bodies[b]->changed)) continue;
+    (bodies[b]->body ? list : list_obstacle)(*bodies[b], of_[b]);
     changed = true;
   }
   if (changed) arrange(bodies);
@@ -41,12 +52,11 @@ bool ContactFragments::update(const ContactBodies& bodies) {
 }
 
 bool ContactFragments::anything(const ContactBodies& bodies) const {
-  const auto asks = [&](std::size_t b) { return bodies[b]->settings().fragments; };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!asks(b)) continue;
-    if (of_[b].fragments > 1 || bodies[b]->settings().self) return true;
+    const ContactSettings& settings = bodies[b]->settings();
+    if (settings.self || (settings.fragments && of_[b].fragments > 1)) return true;
     for (std::size_t c = b + 1; c < bodies.size(); ++c)
-      if (asks(c) && meet(*bodies[b], *bodies[c])) return true;
+      if (bodies[b]->meets(*bodies[c])) return true;
   }
   return false;
 }
@@ -127,6 +137,7 @@ void ContactFragments::place(const ContactBody& body, const BodyEntry& of, std::
 
 void ContactFragments::measure(const ContactBodies& bodies) {
   for (std::uint32_t f = 0; f < fragments_.size(); ++f) {
+    if (!fresh_ && bodies[fragments_[f].body]->fixed()) continue; // as it was measured
     gather(*bodies[fragments_[f].body], fragments_[f]);
     if (fresh_)
       renew(bodies, f);
@@ -138,13 +149,11 @@ void ContactFragments::measure(const ContactBodies& bodies) {
 
 // Its positions of this step.
 void ContactFragments::gather(const ContactBody& body, Fragment& fragment) {
-  const Record* from = body.body->map->position().values().data();
-  const Record* next = body.body->next.position.data();
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();
   Box box;
   for (std::uint32_t n = fragment.vertices; n < fragment.vertices_end; ++n) {
-    from_[n] = from[slots_[n]].vec();
-    at_[n] = next[slots_[n]].vec();
+    from_[n] = body.from(slots_[n]);
+    at_[n] = body.position(slots_[n]).vec();
     start += from_[n];
     end += at_[n];
     box.extend(from_[n]).extend(at_[n]);

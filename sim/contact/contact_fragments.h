@@ -64,7 +64,6 @@ public:
   void forget() { listed_ = false; }
   // Whether fragments of some bodies, or of one, may touch each other at all.
   bool anything(const ContactBodies& bodies) const;
-  static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
 
   void measure(const ContactBodies& bodies);                // the boxes and moves of this step
   void renew(const ContactBodies& bodies, std::uint32_t f); // moves are measured from the end of this step on
@@ -104,6 +103,7 @@ private:
     std::uint32_t fragments = 0, first = 0;     // how many, and the number of the first
   };
   static void list(const ContactBody& body, BodyEntry& of);
+  static void list_obstacle(const ContactBody& body, BodyEntry& of);
   void arrange(const ContactBodies& bodies);
   void place(const ContactBody& body, const BodyEntry& of, std::size_t first);
   void list_sides();

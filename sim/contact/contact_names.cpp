@@ -54,6 +54,8 @@ private:
       add_obstacle(world_.spheres[s].name, world_.number_of_sphere(s), world_.spheres[s].source);
     for (std::size_t b = 0; b < world_.boxes.size(); ++b)
       add_obstacle(world_.boxes[b].name, world_.number_of_box(b), world_.boxes[b].source);
+    for (std::size_t m = 0; m < world_.meshes.size(); ++m)
+      add_obstacle(world_.meshes[m].name, world_.number_of_mesh(m), world_.meshes[m].source);
     for (const auto& [name, thing] : things_) names_.push_back(name);
   }
 
@@ -83,6 +85,7 @@ private:
     add(floor.friction, floor.restitution);
     for (const Sphere& sphere : world_.spheres) add(sphere.friction, sphere.restitution);
     for (const Box& box : world_.boxes) add(box.friction, box.restitution);
+    for (const MeshObstacle& mesh : world_.meshes) add(mesh.friction, mesh.restitution);
     for (const auto& other : bodies_) {
       const ContactSettings& its = other->contact ? *other->contact : own;
       table.bodies.push_back(
@@ -208,6 +211,21 @@ void refuse_restitution(const World& world, const std::vector<std::unique_ptr<Bo
   }
   for (const Sphere& sphere : world.spheres)
     if (sphere.falls() && sphere.restitution.value_or(0) > 0) sphere.source.fail("restitution", what, hint);
+}
+
+void refuse_mesh_obstacles(const World& world, const std::vector<std::unique_ptr<Body>>& bodies,
+                           const std::string& scheme) {
+  for (std::size_t m = 0; m < world.meshes.size(); ++m)
+    for (const auto& body : bodies)
+      if (body->contact && body->contact->obstacles &&
+          !body->contact_table.excludes_obstacle(world.number_of_mesh(m)))
+        world.meshes[m].source.fail(
+            "",
+            fmt::format(
+                "body '{}' meets an <obstacle>, and integrator '{}' solves contact with the floor, spheres "
+                "and boxes alone",
+                body->name, scheme),
+            "take an explicit integrator, such as symplectic, or name it in `not` of the body's <contact>");
 }
 
 } // namespace rend

@@ -20,4 +20,9 @@ void resolve_contact_names(const World& world, const std::vector<std::unique_ptr
 void refuse_restitution(const World& world, const std::vector<std::unique_ptr<Body>>& bodies,
                         const std::string& scheme);
 
+// UserError: a body meets an obstacle that is a mesh, where the scheme solves: solved_contact.h knows planes,
+// spheres and boxes.
+void refuse_mesh_obstacles(const World& world, const std::vector<std::unique_ptr<Body>>& bodies,
+                           const std::string& scheme);
+
 } // namespace rend

@@ -57,7 +57,7 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
     pairs_.reserve(pairs());
   }
   gather();
-  sort();
+  if (!found_.empty()) sort();
   return pairs_;
 }
 
@@ -90,7 +90,7 @@ void ContactPairs::sweep(const Bodies& bodies) {
     const std::size_t begin = neighbours_.size();
     tree.each_in(swept_[a], [&](std::uint32_t b) {
       const bool wanted = a < b || (a == b && body.settings().self);
-      if (wanted && ContactFragments::meet(body, *bodies[all[b].body])) neighbours_.push_back({a, b});
+      if (wanted && body.meets(*bodies[all[b].body])) neighbours_.push_back({a, b});
     });
     std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(begin), neighbours_.end(),
               [](const Neighbours& x, const Neighbours& y) { return x.b < y.b; });

@@ -76,8 +76,9 @@ public:
   const std::vector<EdgeFacePair>& crossing(const Bodies& bodies, const std::vector<double>& pushed);
   const ContactFragments& fragments() const { return fragments_; }
 
-  // The distance that two bodies keep [m].
+  // The distance that two bodies keep [m]; from an obstacle that of the body.
   static double thickness(const ContactBody& a, const ContactBody& b) {
+    if (!a.body || !b.body) return (a.body ? a : b).settings().thickness;
     return 0.5 * (a.settings().thickness + b.settings().thickness);
   }
   void forget() { fragments_.forget(); } // all lists: the next step searches anew

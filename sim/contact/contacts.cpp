@@ -10,25 +10,50 @@ namespace rend {
 std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,
                                        const Scheme& scheme) {
   resolve_contact_names(world, bodies);
-  if (scheme.solves) refuse_restitution(world, bodies, scheme.name);
+  if (scheme.solves) {
+    refuse_restitution(world, bodies, scheme.name);
+    refuse_mesh_obstacles(world, bodies, scheme.name);
+  }
   std::unique_ptr<Contacts> contacts(new Contacts(world, scheme));
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b]->contact && (bodies[b]->floor_contact || bodies[b]->contact->faces()))
       contacts->bodies_.push_back(std::make_unique<ContactBody>(*bodies[b], scheme.contact, b));
-  for (const auto& body : contacts->bodies_)
-    if (body->settings().fragments && !contacts->fragments_)
+  contacts->moving_ = contacts->bodies_.size();
+  contacts->add_meshes(world, bodies.size());
+  for (const auto& body : contacts->moving())
+    if (body->meets_faces() && !contacts->fragments_)
       contacts->fragments_ = std::make_unique<FragmentContact>(!scheme.solves);
   if (contacts->with_faces() && !scheme.solves) contacts->guard_ = std::make_unique<CrossingGuard>();
-  if (EdgeContact::is_asked_for(contacts->bodies_)) contacts->edges_ = std::make_unique<EdgeContact>();
-  for (const auto& body : contacts->bodies_) body->body->drifts_always = scheme.contact == ContactIn::Step;
+  const auto edges_with = [&](EdgeContact::With with) {
+    return EdgeContact::is_asked_for(contacts->bodies_, with) ? std::make_unique<EdgeContact>(with) : nullptr;
+  };
+  contacts->edges_ = edges_with(EdgeContact::With::Bodies);
+  contacts->obstacle_edges_ = edges_with(EdgeContact::With::Obstacles);
+  for (const auto& body : contacts->moving()) body->body->drifts_always = scheme.contact == ContactIn::Step;
   if (contacts->bodies_.empty() && world.spheres.empty()) return {};
   return contacts;
 }
 
+void Contacts::add_meshes(const World& world, std::size_t bodies) {
+  for (std::size_t m = 0; m < world.meshes.size(); ++m) {
+    double thickness = -1; // [m], of the thickest body that meets it; none does
+    for (const auto& body : moving()) {
+      const bool meets =
+          body->settings().obstacles && !body->body->contact_table.excludes_obstacle(world.number_of_mesh(m));
+      if (!meets) continue;
+      body->meets_obstacles = true;
+      thickness = std::max(thickness, body->settings().thickness);
+    }
+    if (thickness >= 0)
+      bodies_.push_back(
+          std::make_unique<ContactBody>(world.meshes[m], world.number_of_mesh(m), bodies + m, thickness));
+  }
+}
+
 void Contacts::advance(double time, double step) {
-  for (auto& body : bodies_)
+  for (const auto& body : moving())
     if (!body->body->next.finite()) return; // the scene is about to stop
-  for (auto& body : bodies_) body->prepare(time + step);
+  for (auto& body : bodies_) body->prepare(time + step, step);
   obstacles_.predict(time, step);
   detect();
   const bool again = in_ == ContactIn::StepInstead && anything();
@@ -47,14 +72,14 @@ bool Contacts::anything() {
 
 // In place of what the scheme has made.
 void Contacts::drift_all(double time, double step) {
-  for (auto& body : bodies_)
+  for (const auto& body : moving())
     if (!body->body->drifts()) body->body->drift_again(time, step);
   detect();
 }
 
 // As long as something touches, the state stays staggered. `drifted`: all bodies have.
 void Contacts::end_step(double time, double step, bool drifted) {
-  for (auto& each : bodies_) {
+  for (const auto& each : moving()) {
     Body& body = *each->body;
     if (!answer_.empty() || (guard_ && guard_->acted()))
       body.next.staggered = true;
@@ -66,7 +91,8 @@ void Contacts::end_step(double time, double step, bool drifted) {
 void Contacts::detect() {
   answer_.begin();
   if (fragments_) fragments_->detect(bodies_, answer_);
-  if (edges_) edges_->detect(bodies_, answer_);
+  for (EdgeContact* edges : {edges_.get(), obstacle_edges_.get()})
+    if (edges) edges->detect(bodies_, answer_);
   obstacles_.detect(bodies_, answer_);
 }
 
@@ -80,12 +106,14 @@ void Contacts::store(Archive& archive) {
   for (auto& body : bodies_)
     if (body->faces) body->faces->update();
   if (fragments_) fragments_->forget();
-  if (edges_) edges_->forget();
+  for (EdgeContact* edges : {edges_.get(), obstacle_edges_.get()})
+    if (edges) edges->forget();
 }
 
 std::size_t Contacts::bytes() const {
   std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0) +
-                    (edges_ ? edges_->bytes() : 0) + (guard_ ? guard_->bytes() : 0);
+                    (edges_ ? edges_->bytes() : 0) + (obstacle_edges_ ? obstacle_edges_->bytes() : 0) +
+                    (guard_ ? guard_->bytes() : 0);
   for (const auto& body : bodies_) sum += body->bytes();
   return sum;
 }

@@ -6,16 +6,19 @@
 //   answer       by impulses, all at once (contact_answer.h)
 //   guard        what would go through each other nevertheless (crossing_guard.h)
 //
-// Within a step of velocity Verlet, and of other explicit schemes but symplectic Euler where something touches
-// (sim/integrate/leapfrog.h).
+// Within a step of velocity Verlet, and of other explicit schemes but symplectic Euler where something
+// touches (sim/integrate/leapfrog.h).
 //
-// Prescribed vertices take no impulse: their supports do.
+// Prescribed vertices take no impulse: their supports do. Those of mesh obstacles are such: they are met as
+// other bodies are.
 #pragma once
 
 #include "sim/contact/crossing_guard.h"
 #include "sim/contact/edge_contact.h"
 #include "sim/contact/fragment_contact.h"
 #include "sim/contact/obstacle_contact.h"
+
+#include <span>
 
 namespace rend {
 
@@ -39,6 +42,9 @@ public:
 private:
   Contacts(World& world, const Scheme& scheme)
       : in_(scheme.contact), obstacles_(world), answer_(scheme.solves) {}
+  void add_meshes(const World& world, std::size_t bodies);
+  // The bodies among them, without mesh obstacles.
+  std::span<const std::unique_ptr<ContactBody>> moving() const { return std::span(bodies_).first(moving_); }
   void detect();
   bool anything(); // that is to be answered
   ContactPairs* lists() { return fragments_ ? &fragments_->lists() : nullptr; }
@@ -46,10 +52,13 @@ private:
   void end_step(double time, double step, bool drifted);
 
   ContactIn in_;
-  std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
-  std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
-  std::unique_ptr<CrossingGuard> guard_;             // null: as guard()
-  std::unique_ptr<EdgeContact> edges_;               // null: no two bodies can touch, and none itself
+  // Those with contact, in the order of the scene, then the mesh obstacles that some of them meet.
+  std::vector<std::unique_ptr<ContactBody>> bodies_;
+  std::size_t moving_ = 0;                      // of them are bodies
+  std::unique_ptr<FragmentContact> fragments_;  // null: not enabled in any body
+  std::unique_ptr<CrossingGuard> guard_;        // null: as guard()
+  std::unique_ptr<EdgeContact> edges_;          // null: no two bodies can touch, and none itself
+  std::unique_ptr<EdgeContact> obstacle_edges_; // null: none meets a mesh
   ObstacleContact obstacles_;
   ContactAnswer answer_;
 };

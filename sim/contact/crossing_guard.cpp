@@ -142,12 +142,8 @@ std::vector<ContactConstraint> CrossingGuard::constraints(const Step& of) const 
     const auto& [p, q] = pair.edge;
     const ContactPoint a{&body, {p, q, q}, {1 - way->share, way->share, 0}},
         b{&other, other.faces->triangles()[pair.triangle].vertex, way->weight};
-    wanted.push_back({.a = ContactSide::of(a, a.held(way->normal)),
-                      .b = ContactSide::of(b, b.held(way->normal)),
-                      .normal = way->normal,
-                      .apart = way->apart,
-                      .kept = way->apart,
-                      .friction = body.terms(other).friction});
+    wanted.push_back(contact_between(a, b, way->normal, way->apart));
+    wanted.back().restitution = 0;
   }
   for (const BoxCrossing& each : in_boxes_) of.obstacles.keep_out(of.bodies, each, wanted);
   return wanted;
@@ -156,13 +152,17 @@ std::vector<ContactConstraint> CrossingGuard::constraints(const Step& of) const 
 // Whether any zone has grown.
 bool CrossingGuard::unite(const Step& of) {
   bool grew = false;
+  // An obstacle is one part as a whole.
+  const auto part = [&](std::uint32_t body, Slot vertex) {
+    return ZonePart{body, of.bodies[body]->body ? vertex : 0};
+  };
   const auto corners = [&](std::uint32_t body, std::uint32_t triangle) {
     const auto& corner = of.bodies[body]->faces->triangles()[triangle].vertex;
-    return std::array<ZonePart, 3>{{{body, corner[0]}, {body, corner[1]}, {body, corner[2]}}};
+    return std::array<ZonePart, 3>{{part(body, corner[0]), part(body, corner[1]), part(body, corner[2])}};
   };
   for (const EdgeFacePair& pair : crossing_) {
     const auto [a, b, c] = corners(pair.face_body, pair.triangle);
-    const ZonePart p{pair.body, pair.edge[0]}, q{pair.body, pair.edge[1]};
+    const ZonePart p = part(pair.body, pair.edge[0]), q = part(pair.body, pair.edge[1]);
     grew = zones_.unite(std::array{p, q, a, b, c}) || grew;
   }
   for (const BoxCrossing& each : in_boxes_) {
@@ -172,7 +172,7 @@ bool CrossingGuard::unite(const Step& of) {
   return grew;
 }
 
-// As a box moves that is in it, the first of several; or as its members do on average.
+// As an obstacle moves that is in it, the first of several; or as its members do on average.
 CrossingGuard::Motion CrossingGuard::motion_of(const Step& of, std::span<const ZonePart> zone) {
   std::vector<ZoneMember> members;
   bool led = false;
@@ -180,6 +180,7 @@ CrossingGuard::Motion CrossingGuard::motion_of(const Step& of, std::span<const Z
     if (part.is_box())
       return {[&of, part](const Vec3& from) { return of.obstacles.carried(part.number, from); }, true};
     const ContactBody& body = *of.bodies[part.body];
+    if (!body.body) return {[&body](const Vec3& from) { return body.obstacle->carried(from); }, true};
     if (!body.alive(part.number)) continue;
     const bool prescribed = body.inverse_mass(part.number).isZero(0);
     led = led || prescribed;

@@ -69,36 +69,30 @@ private:
   BoxTree top_;
 };
 
-bool EdgeContact::is_asked_for(const ContactPairs::Bodies& bodies) {
-  const auto asks = [](const ContactBody& body) { return body.settings().fragments; };
-  for (std::size_t a = 0; a < bodies.size(); ++a) {
-    if (!asks(*bodies[a])) continue;
-    if (bodies[a]->settings().self) return true;
-    for (std::size_t b = a + 1; b < bodies.size(); ++b)
-      if (asks(*bodies[b]) && !bodies[a]->terms(*bodies[b]).excluded) return true;
-  }
+bool EdgeContact::is_asked_for(const ContactPairs::Bodies& bodies, With with) {
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = a; b < bodies.size(); ++b)
+      if (looked_for(*bodies[a], *bodies[b], with)) return true;
   return false;
 }
 
-// Sorted by their ends.
-void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const {
-  const EmbeddedMap& map = *body.body->map;
-  const std::vector<std::uint32_t> label = label_fragments(map.map());
-  struct FoundEdge {
-    Edge edge;
-    Vec3 normal;
-    bool again = false, sharp = true;
-  };
-  std::map<std::array<Slot, 2>, FoundEdge> found;
-  body.body->boundary().for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
-    const Dart start = face.turned ? map.map().alpha(1, face.first) : face.first; // outward
-    const Vec3 normal = rest_area_vector(map, start).normalized();
+// The same one twice: itself.
+bool EdgeContact::looked_for(const ContactBody& a, const ContactBody& b, With with) {
+  if ((with == With::Bodies) != (a.body && b.body)) return false;
+  return &a == &b ? a.settings().self : a.meets(b);
+}
+
+// Finds the edges of faces.
+class EdgeContact::Finder {
+public:
+  // `normal`: of the face at rest.
+  void add(std::span<const Slot> ring, const Vec3& normal, std::uint32_t fragment) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Slot a = ring[k], b = ring[(k + 1) % ring.size()], beyond = ring[(k + 2) % ring.size()];
-      const auto [at, added] = found.try_emplace({std::min(a, b), std::max(a, b)});
-      FoundEdge& known = at->second;
+      const auto [at, added] = found_.try_emplace({std::min(a, b), std::max(a, b)});
+      Found& known = at->second;
       if (added) {
-        known.edge = {{a, b}, {beyond, beyond}, label[face.first.value]};
+        known.edge = {{a, b}, {beyond, beyond}, fragment};
         known.normal = normal;
         continue;
       }
@@ -106,26 +100,56 @@ void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const 
       known.sharp = known.again || known.normal.dot(normal) < flat_edge;
       known.again = true;
     }
-  });
-  edges.clear();
-  const bool solid = body.solid();
-  for (const auto& [ends, known] : found)
-    if (!solid || known.sharp) edges.push_back(known.edge);
+  }
+  // Sorted by their ends.
+  void list(bool solid, std::vector<Edge>& edges) const {
+    edges.clear();
+    for (const auto& [ends, known] : found_)
+      if (!solid || known.sharp) edges.push_back(known.edge);
+  }
+
+private:
+  struct Found {
+    Edge edge;
+    Vec3 normal;
+    bool again = false, sharp = true;
+  };
+  std::map<std::array<Slot, 2>, Found> found_;
+};
+
+void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const {
+  Finder finder;
+  if (body.body) {
+    const EmbeddedMap& map = *body.body->map;
+    const std::vector<std::uint32_t> label = label_fragments(map.map());
+    body.body->boundary().for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
+      const Dart start = face.turned ? map.map().alpha(1, face.first) : face.first; // outward
+      finder.add(ring, rest_area_vector(map, start).normalized(), label[face.first.value]);
+    });
+  } else {
+    for (const ContactFaces::Triangle& triangle : body.faces->triangles()) {
+      const auto x = [&](std::size_t k) { return body.obstacle->start(triangle.vertex[k]); };
+      finder.add(triangle.vertex, (x(1) - x(0)).cross(x(2) - x(0)).normalized(), 0);
+    }
+  }
+  finder.list(body.solid(), edges);
 }
 
 bool EdgeContact::has_moved(const ContactPairs::Bodies& bodies) const {
   Vec3 mean = Vec3::Zero();
-  std::size_t count = 0;
+  std::size_t count = 0, fixed = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b]->fixed()) fixed += there_[b].size();
   const auto each = [&](const auto& f) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (std::size_t n = 0; n < there_[b].size(); ++n) {
+      for (std::size_t n = 0; n < there_[b].size() && !bodies[b]->fixed(); ++n) {
         const Slot v = edges_[b][n / 2].end[n % 2];
         f(Vec3(bodies[b]->position(v).vec() - there_[b][n]));
       }
   };
   each([&](const Vec3& moved) { mean += moved, ++count; });
-  if (count > 0) mean /= static_cast<double>(count);
-  double most = 0;
+  if (count > 0) mean /= static_cast<double>(count + fixed);
+  double most = fixed > 0 ? mean.squaredNorm() : 0; // what never moves
   each([&](const Vec3& moved) { most = std::max(most, (moved - mean).squaredNorm()); });
   return most > 0.25 * skin_ * skin_;
 }
@@ -160,7 +184,7 @@ void EdgeContact::add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t bo
                             double reach) {
   const ContactBody& own = *bodies[body];
   const auto passes = [&](std::uint32_t other) {
-    return other < body || (other == body && !own.settings().self) || own.terms(*bodies[other]).excluded;
+    return other < body || !looked_for(own, *bodies[other], with_);
   };
   for (std::uint32_t n = 0; n < edges_[body].size(); ++n) {
     const BoxTree::Box box = span_of(own, edges_[body][n].end);
@@ -240,13 +264,7 @@ std::optional<ContactConstraint> EdgeContact::touch(const ContactPairs::Bodies& 
     return ContactPoint{&of, {edge.end[0], edge.end[1], edge.end[1]}, {1 - share, share, 0}};
   };
   const ContactPoint own = point(body, a, start->share[0]), there = point(other, b, start->share[1]);
-  return ContactConstraint{.a = ContactSide::of(own, own.held(start->normal)),
-                           .b = ContactSide::of(there, there.held(start->normal)),
-                           .normal = start->normal,
-                           .apart = thickness,
-                           .kept = thickness,
-                           .friction = body.terms(other).friction,
-                           .restitution = body.terms(other).restitution};
+  return contact_between(own, there, start->normal, thickness);
 }
 
 void EdgeContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
@@ -254,7 +272,9 @@ void EdgeContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answ
   edges_.resize(bodies.size());
   there_.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b]->settings().fragments || (searched_ && !bodies[b]->changed)) continue;
+    const ContactBody& body = *bodies[b];
+    const bool wanted = with_ == With::Bodies ? body.settings().fragments : !body.body || body.meets_obstacles;
+    if (!wanted || (searched_ && !body.changed)) continue;
     list(*bodies[b], edges_[b]);
     changed = true;
   }

@@ -31,12 +31,16 @@ namespace rend {
 
 class EdgeContact {
 public:
+  // Of bodies with each other, or with obstacles: what moves past an obstacle is then searched for there alone.
+  enum class With { Bodies, Obstacles };
+  explicit EdgeContact(With with = With::Bodies) : with_(with) {}
+
   // Whether two of them can touch, or one itself. Their names are resolved (contact_names.h).
-  static bool is_asked_for(const ContactPairs::Bodies& bodies);
+  static bool is_asked_for(const ContactPairs::Bodies& bodies, With with = With::Bodies);
 
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
-  void forget() { *this = {}; }                       // what was listed: after a state was read
+  void forget() { *this = EdgeContact(with_); }       // what was listed: after a state was read
   std::size_t pairs() const { return pairs_.size(); } // candidates in the last step
   long searches() const { return searches_; }
   std::size_t bytes() const;
@@ -54,7 +58,9 @@ private:
     std::uint32_t other_body = 0, other_edge = 0;
   };
   class Trees;
+  class Finder;
 
+  static bool looked_for(const ContactBody& a, const ContactBody& b, With with);
   void list(const ContactBody& body, std::vector<Edge>& edges) const;
   bool has_moved(const ContactPairs::Bodies& bodies) const;
   void search(const ContactPairs::Bodies& bodies);
@@ -62,6 +68,7 @@ private:
   static bool joined(const ContactBody& body, const Edge& a, const Edge& b);
   std::optional<ContactConstraint> touch(const ContactPairs::Bodies& bodies, const Pair& pair) const;
 
+  With with_;
   std::vector<std::vector<Edge>> edges_; // one list per body; of one without contact of fragments empty
   std::vector<std::vector<Vec3>> there_; // [m], both ends of each edge at the last search
   std::vector<Pair> pairs_;              // of the last search, sorted

@@ -63,6 +63,7 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
   if (!start) return {};
   const double before = start->gap, after = start->normal.dot(x1 - at(y1, start->weight));
   if (after >= thickness) return {};
+  if (before < 0 && other.obstacle && !other.obstacle->lies_behind(x0, -before)) return {};
   if (before > thickness) { // a path that comes so close may still miss the face
     const double share = (before - thickness) / (before - after);
     const Vec3 there = x0 + share * (x1 - x0);
@@ -73,14 +74,7 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
   const double kept = before < 0 ? 0 : pair.neighbours ? std::min(thickness, before) : thickness;
   if (start->normal.dot(x1 - at(y1, start->weight)) >= kept) return {}; // as most that are packed
   const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
-  const Vec3 normal = start->normal;
-  return ContactConstraint{.a = ContactSide::of(vertex, vertex.held(normal)),
-                           .b = ContactSide::of(face, face.held(normal)),
-                           .normal = normal,
-                           .apart = kept,
-                           .kept = kept,
-                           .friction = body.terms(other).friction,
-                           .restitution = body.terms(other).restitution};
+  return contact_between(vertex, face, start->normal, kept);
 }
 
 void FragmentContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {

@@ -1,5 +1,6 @@
 #include "sim/contact/obstacle_contact.h"
 
+#include "sim/contact/sphere_on_mesh.h"
 #include "sim/outside/box_face.h"
 
 #include <algorithm>
@@ -137,6 +138,9 @@ ObstacleContact::ObstacleContact(World& world) : world_(world) {
   if (std::any_of(world.spheres.begin(), world.spheres.end(), turns))
     sphere_steps_.resize(world.spheres.size());
   if (std::any_of(world.boxes.begin(), world.boxes.end(), moves)) box_steps_.resize(world.boxes.size());
+  if (std::any_of(world.spheres.begin(), world.spheres.end(), [](const Sphere& one) { return one.falls(); }))
+    for (const MeshObstacle& mesh : world.meshes) meshes_.emplace_back(mesh);
+  mesh_steps_.resize(meshes_.size());
 }
 
 void ObstacleContact::predict(double time, double step) {
@@ -148,6 +152,9 @@ void ObstacleContact::predict(double time, double step) {
   }
   for (std::size_t b = 0; b < box_steps_.size(); ++b)
     box_steps_[b] = {world_.boxes[b].pose(time), world_.boxes[b].pose(time + step), step};
+  for (std::size_t m = 0; m < meshes_.size(); ++m)
+    if (const MeshObstacle& mesh = world_.meshes[m]; mesh.moves())
+      mesh_steps_[m] = {mesh.pose(time), mesh.pose(time + step), step};
 }
 
 const RigidStep* ObstacleContact::step_of(const Sphere& sphere) const {
@@ -192,6 +199,7 @@ RigidStep ObstacleContact::way_of(const Box& box) const {
 void ObstacleContact::detect(const ContactBodies& bodies, ContactAnswer& answer) {
   near_ = false;
   for (const auto& body : bodies) {
+    if (!body->body) continue; // an obstacle
     detect_floor(*body, answer);
     each_shape(*body,
                [&](const auto& shape, std::size_t number) { detect_shape(shape, *body, number, answer); });
@@ -323,8 +331,23 @@ void ObstacleContact::detect_around(Sphere& sphere, ContactAnswer& answer) {
     add(*plane, box.friction.value_or(own), box.restitution.value_or(bounce),
         way ? way->velocity(touched) : Vec3(Vec3::Zero()));
   }
+  detect_on_meshes(sphere, [&](const Plane& plane, const MeshObstacle& mesh, const Vec3& surface) {
+    add(plane, mesh.friction.value_or(own), mesh.restitution.value_or(bounce), surface);
+  });
   for (Sphere& other : world_.spheres)
     if (!other.falls() || &sphere < &other) detect_pair(sphere, other, answer);
+}
+
+// Calls add(plane, mesh, velocity of its surface there).
+template <class Add> void ObstacleContact::detect_on_meshes(const Sphere& sphere, const Add& add) const {
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const RigidStep& way = mesh_steps_[m];
+    for (const Plane& still : planes_against(meshes_[m].tree, sphere.radius, way.from.back(sphere.centre),
+                                             way.to.back(sphere.next_centre))) {
+      const Plane plane = moved(way.to, still);
+      add(plane, *meshes_[m].obstacle, way.velocity(sphere.next_centre - sphere.radius * plane.normal));
+    }
+  }
 }
 
 void ObstacleContact::detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer) {

@@ -8,12 +8,15 @@
 // Against a box that moves, points are taken back to where the preset puts it, from the start and from the end
 // of the step: so the path is relative to the box.
 //
+// Meshes are met here by falling spheres alone (sphere_on_mesh.h), by bodies as other bodies are (contacts.h).
+//
 // Limits: obstacles respond to nothing else; a sphere much smaller than the faces should move less than its
 // diameter in a step.
 #pragma once
 
 #include "sim/contact/contact_answer.h"
 #include "sim/contact/contact_fragments.h"
+#include "sim/contact/standing_mesh.h"
 #include "sim/outside/world.h"
 
 #include <memory>
@@ -62,6 +65,7 @@ private:
   void find_crossing(const ContactBody& body, BoxCrossing one, std::vector<BoxCrossing>& found);
   RigidStep way_of(const Box& box) const; // that of a standing one as well
   void detect_around(Sphere& sphere, ContactAnswer& answer);
+  template <class Add> void detect_on_meshes(const Sphere& sphere, const Add& add) const;
   void detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer);
 
   World& world_;
@@ -69,6 +73,8 @@ private:
   bool near_ = false;
   // of this step, one for each sphere and box; empty: no sphere turns, no box moves
   std::vector<RigidStep> sphere_steps_, box_steps_;
+  std::vector<StandingMesh> meshes_;  // one per mesh of the world; empty: no sphere falls
+  std::vector<RigidStep> mesh_steps_; // one for each of them, of this step
 };
 
 } // namespace rend

@@ -1,6 +1,6 @@
 #include "sim/contact/start_overlap.h"
 
-#include "sim/contact/surface_tree.h"
+#include "sim/contact/starting.h"
 
 #include <fmt/format.h>
 
@@ -10,75 +10,11 @@
 namespace rend {
 namespace {
 
-constexpr double not_inside = 1e-9; // relative to the size of the body: less deep is not inside
-constexpr int rounds = 64;          // of moving what overlaps
-constexpr std::size_t named = 4;    // overlaps in a message
-constexpr std::uint8_t everywhere = 7;
+constexpr int rounds = 64;       // of moving what overlaps
+constexpr std::size_t named = 4; // overlaps in a message
 
 using Bounds = Eigen::AlignedBox3d;
 using Edge = std::pair<Slot, Slot>; // the smaller slot first
-
-// A body at the start.
-class Starting {
-public:
-  Starting(Body& body_, std::size_t number_) : body(&body_), number(number_) {
-    const CellIndex& cells = body->map->cells(Vertex);
-    held.assign(cells.slots(), 0);
-    body->constrain(0, body->map->position().values().data(), body->map->velocity().values().data());
-    body->constraints.mark(0, held.data());
-    for (Slot v = 0; v < cells.slots(); ++v) {
-      if (!cells.alive(v)) continue;
-      alive.push_back(v);
-      bounds.extend(at(v));
-      movable = movable && held[v] == 0;
-    }
-    if (settings().faces() && !alive.empty()) faces.emplace(*body->map, body->boundary());
-    look();
-  }
-  const ContactSettings& settings() const { return *body->contact; }
-  Vec3 at(Slot v) const { return body->map->position()[v].vec(); }
-  double least() const { return not_inside * bounds.diagonal().norm(); } // [m], what counts as inside
-  bool solid() const { return body->map->dimension() == 3; }
-
-  // Whether contact can move a vertex along n.
-  bool free_along(Slot v, const Vec3& n) const {
-    for (int axis = 0; axis < 3; ++axis)
-      if (std::abs(n[axis]) > 1e-3 && !(held[v] & (1u << axis))) return true;
-    return false;
-  }
-  bool pinned(Slot v) const { return held[v] == everywhere; }
-  bool pinned(const ContactFaces::Triangle& t) const {
-    return pinned(t.vertex[0]) && pinned(t.vertex[1]) && pinned(t.vertex[2]);
-  }
-
-  void move(const Vec3& by) {
-    for (Slot v : alive) {
-      auto& position = body->map->position().values();
-      auto& rest = body->map->rest().values();
-      position[v] = Record(position[v].vec() + by);
-      rest[v] = Record(rest[v].vec() + by);
-    }
-    bounds.translate(by);
-    moved += by;
-    look();
-  }
-
-  Body* body;
-  std::size_t number;
-  std::vector<Slot> alive;
-  std::vector<std::uint8_t> held; // one per vertex slot, bits 0, 1, 2: prescribed along x, y, z
-  bool movable = true;            // nothing is prescribed
-  Bounds bounds;                  // [m]
-  Vec3 moved = Vec3::Zero();      // [m]
-  std::string out_of;             // what it was moved out of, for a note
-  std::optional<ContactFaces> faces;
-  std::optional<SurfaceTree> tree; // none: contact with the floor alone
-
-private:
-  void look() {
-    if (faces) tree.emplace(*faces, body->map->position().values(), solid());
-  }
-};
 
 // Takes the deeper of two.
 void deepen(std::optional<StartOverlap>& worst, double depth, double least, const Vec3& at, const Vec3& way) {
@@ -263,7 +199,10 @@ std::optional<StartOverlap> in_each_other(const Starting& a, const Starting& b) 
   return worst;
 }
 
-std::vector<StartOverlap> overlaps_of(const World& world, const std::vector<std::unique_ptr<Starting>>& all) {
+using Startings = std::vector<std::unique_ptr<Starting>>;
+
+// `all`: the bodies; `meshes`: the obstacles.
+std::vector<StartOverlap> overlaps_of(const World& world, const Startings& all, const Startings& meshes) {
   std::vector<StartOverlap> found;
   const auto keep = [&](const Starting& body, std::optional<StartOverlap> overlap, const std::string& with) {
     if (!overlap) return;
@@ -282,6 +221,9 @@ std::vector<StartOverlap> overlaps_of(const World& world, const std::vector<std:
       keep_obstacle(world.number_of_sphere(s), StartingSphere{&world.spheres[s]});
     for (std::size_t b = 0; b < world.boxes.size() && body.settings().obstacles; ++b)
       keep_obstacle(world.number_of_box(b), StartingBox{&world.boxes[b]});
+    for (const auto& mesh : meshes)
+      if (body.settings().obstacles && !table.excludes_obstacle(mesh->number))
+        keep(body, in_each_other(body, *mesh), world.called(mesh->number));
     for (std::size_t m = n + 1; m < all.size() && body.settings().fragments; ++m) {
       if (!all[m]->settings().fragments || table.excludes_body(all[m]->number)) continue;
       auto overlap = in_each_other(body, *all[m]);
@@ -292,10 +234,17 @@ std::vector<StartOverlap> overlaps_of(const World& world, const std::vector<std:
   return found;
 }
 
-std::vector<std::unique_ptr<Starting>> starting(const std::vector<std::unique_ptr<Body>>& bodies) {
-  std::vector<std::unique_ptr<Starting>> all;
+Startings starting(const std::vector<std::unique_ptr<Body>>& bodies) {
+  Startings all;
   for (std::size_t n = 0; n < bodies.size(); ++n)
     if (bodies[n]->contact) all.push_back(std::make_unique<Starting>(*bodies[n], n));
+  return all;
+}
+
+Startings meshes_of(const World& world) {
+  Startings all;
+  for (std::size_t m = 0; m < world.meshes.size(); ++m)
+    all.push_back(std::make_unique<Starting>(world.meshes[m], world.number_of_mesh(m)));
   return all;
 }
 
@@ -339,15 +288,15 @@ bool push_out(const StartOverlap& overlap, Starting& body, Starting* other) {
 } // namespace
 
 std::vector<StartOverlap> start_overlaps(const World& world, const std::vector<std::unique_ptr<Body>>& bodies) {
-  return overlaps_of(world, starting(bodies));
+  return overlaps_of(world, starting(bodies), meshes_of(world));
 }
 
 void clear_start(const World& world, const std::vector<std::unique_ptr<Body>>& bodies) {
-  const auto all = starting(bodies);
+  const auto all = starting(bodies), meshes = meshes_of(world);
   const auto starting_of = [&](std::size_t number) {
     return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one->number == number; })->get();
   };
-  std::vector<StartOverlap> overlaps = overlaps_of(world, all);
+  std::vector<StartOverlap> overlaps = overlaps_of(world, all, meshes);
   const auto asked = [&](const StartOverlap& overlap) {
     return bodies[overlap.body]->contact->push() || (overlap.other && bodies[*overlap.other]->contact->push());
   };
@@ -362,7 +311,7 @@ void clear_start(const World& world, const std::vector<std::unique_ptr<Body>>& b
     const StartOverlap worst = *std::max_element(
         overlaps.begin(), overlaps.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
     if (!push_out(worst, *starting_of(worst.body), worst.other ? starting_of(*worst.other) : nullptr)) break;
-    overlaps = overlaps_of(world, all);
+    overlaps = overlaps_of(world, all, meshes);
   }
   if (!overlaps.empty())
     refuse(

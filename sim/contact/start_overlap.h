@@ -36,7 +36,8 @@ struct StartOverlap {
   Vec3 way = Vec3::UnitZ();         // unit: the way out, of `body`
 };
 
-// The deepest one of each body with each thing, in the order of bodies, and of floor, spheres, boxes, bodies.
+// The deepest one of each body with each thing, in the order of bodies, and of floor, spheres, boxes,
+// meshes, bodies.
 // Looks at the current positions, and puts what is prescribed where it is at time 0.
 std::vector<StartOverlap> start_overlaps(const World& world, const std::vector<std::unique_ptr<Body>>& bodies);
 

@@ -76,6 +76,24 @@ struct NearPoint {
   }
 };
 
+// For Eigen's BVIntersect: the triangles nearer to a point than that.
+struct WithinReach {
+  Vec3 point;
+  double reach; // [m]
+  const std::vector<TriangleCorners>* corners;
+  std::vector<SurfaceTree::Nearest>* out;
+
+  bool intersectVolume(const Bounds& box) const { return box.squaredExteriorDistance(point) < reach * reach; }
+  bool intersectObject(std::uint32_t triangle) const {
+    const TriangleCorners& x = (*corners)[triangle];
+    const Weights w = nearest_in_triangle(x, point);
+    const Vec3 there = w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
+    const double distance = (point - there).norm();
+    if (distance < reach) out->push_back({there, Vec3::UnitZ(), distance, triangle});
+    return false; // go on
+  }
+};
+
 } // namespace
 
 SurfaceTree::SurfaceTree(const ContactFaces& faces, const std::vector<Record>& position, bool solid)
@@ -108,6 +126,18 @@ SurfaceTree::Nearest SurfaceTree::nearest(const Vec3& point) const {
   Eigen::BVMinimize(tree_, near);
   best.normal = normal(best.triangle);
   return best;
+}
+
+std::vector<SurfaceTree::Nearest> SurfaceTree::within(const Vec3& point, double reach) const {
+  std::vector<Nearest> found;
+  if (corners_.empty()) return found;
+  WithinReach look{point, reach, &corners_, &found};
+  Eigen::BVIntersect(tree_, look);
+  for (Nearest& each : found) each.normal = normal(each.triangle);
+  std::sort(found.begin(), found.end(), [](const Nearest& a, const Nearest& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+  return found;
 }
 
 bool SurfaceTree::inside(const Vec3& point) const {

@@ -25,6 +25,8 @@ public:
   };
   Nearest nearest(const Vec3& point) const; // CHECK: there are faces
   bool inside(const Vec3& point) const;     // of a solid; false for a sheet
+  // The nearest points of all faces that are nearer than `reach` [m], the nearest first, then by triangle.
+  std::vector<Nearest> within(const Vec3& point, double reach) const;
 
   struct Crossing {
     double share = 0; // of the way along the segment, 0 to 1

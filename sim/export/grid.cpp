@@ -212,15 +212,15 @@ void add_obstacle(const ObstacleSkin& obstacle, std::int64_t number, Grid& grid,
     on_points.body.push_back(number);
     on_points.prescribed.push_back(0);
   }
-  for (const std::array<std::int32_t, 4>& quad : obstacle.quads) {
-    for (const std::int32_t p : quad) grid.corners.push_back(first + p);
-    grid.kinds.push_back(GridCell::Quad);
+  obstacle.each_face([&](std::span<const std::int32_t> face) {
+    for (const std::int32_t p : face) grid.corners.push_back(first + p);
+    grid.kinds.push_back(face.size() == 4 ? GridCell::Quad : GridCell::Triangle);
     grid.ends.push_back(static_cast<std::int64_t>(grid.corners.size()));
     grid.face_ends.push_back(-1);
     on_cells.element.push_back(0);
     on_cells.body.push_back(number);
     on_cells.fragment.push_back(-1);
-  }
+  });
   if (on_cells.stress.empty()) return;
   on_cells.stress.resize(9 * on_cells.element.size(), 0);
   on_cells.equivalent.resize(on_cells.element.size(), 0);

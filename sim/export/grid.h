@@ -2,12 +2,12 @@
 // computation in other programs. All bodies are in one grid, in the order of the preset.
 //
 // A point is a vertex of the map, so that a vertex split by a tear becomes two points. A cell is an element:
-// hexahedra stay hexahedra. Obstacles are further bodies of quads (obstacle_skin.h). Corners are in the order
-// of sim/mesh/cell_shapes.h (Gmsh's order), so that at rest every solid cell has positive volume; the faces of
-// an orientable sheet all have the same orientation, and keep it when they tear.
+// hexahedra stay hexahedra. Obstacles are further bodies of quads and triangles (obstacle_skin.h). Corners
+// are in the order of sim/mesh/cell_shapes.h (Gmsh's order), so that at rest every solid cell has positive
+// volume; the faces of an orientable sheet all have the same orientation, and keep it when they tear.
 //
-// Pictures lie on the cells of sheets. A solid has none here: its corners belong to volumes, and one where the
-// faces of a volume meet would lie in several places of a picture. (A skin has it.)
+// Pictures lie on the cells of sheets. A solid has none here: its corners belong to volumes, and one where
+// the faces of a volume meet would lie in several places of a picture. (A skin has it.)
 #pragma once
 
 #include "sim/export/skin_picture.h"
@@ -50,18 +50,18 @@ struct Grid {
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> face_ends; // one per cell: one past its last entry in `faces`; -1: not a polyhedron
 
-  // The place in the picture of each entry of `corners`; in cells without a picture its middle. Empty: no sheet
-  // has one.
+  // The place in the picture of each entry of `corners`; in cells without a picture its middle. Empty: no
+  // sheet has one.
   std::vector<TexturePlace> texture;
 
   // On points: position at rest (of obstacles: at time 0) [m], velocity [m/s], mass [kg], vertex (its slot in
   // the body: constant until it is split), body (from 0), prescribed (bits 1, 2, 4: along x, y, z). Obstacles
   // have no mass.
   std::vector<GridArray> on_points;
-  // On cells: element (its smallest dart, which never changes), body, fragment (numbered over all bodies); with
-  // finite elements also the stress [Pa], xx xy xz yx .. zz, and its von Mises equivalent. These are 0 in
-  // bodies without, and in an element so flat that its stress is undefined. Quads of obstacles are element 0 of
-  // fragment -1.
+  // On cells: element (its smallest dart, which never changes), body, fragment (numbered over all bodies);
+  // with finite elements also the stress [Pa], xx xy xz yx .. zz, and its von Mises equivalent. These are 0
+  // in bodies without, and in an element so flat that its stress is undefined. Quads of obstacles are element
+  // 0 of fragment -1.
   std::vector<GridArray> on_cells;
 };
 

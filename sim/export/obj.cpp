@@ -142,7 +142,7 @@ ExportFormat obj_format() {
   return {
       .name = "obj",
       .what =
-          "the surface as polygons, an object per body, sphere and box, a group per fragment; with pictures on "
+          "the surface as polygons, an object per body and obstacle, a group per fragment; with pictures on "
           "them a material library; text, one file per frame",
       .extension = ".obj",
       .index_extension = "",

@@ -72,6 +72,16 @@ ObstacleSkin skin_of(const Box& box, double time) {
   return out;
 }
 
+ObstacleSkin skin_of(const MeshObstacle& mesh, double time) {
+  ObstacleSkin out;
+  out.start = mesh.surface.points;
+  for (const auto& [a, b, c] : mesh.surface.triangles)
+    out.triangles.push_back(
+        {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
+  move(out, time, [&](double t) { return mesh.pose(t); });
+  return out;
+}
+
 } // namespace
 
 Pose pose_of(const Sphere& sphere, double time) {
@@ -91,6 +101,10 @@ std::vector<ObstacleSkin> obstacle_skins(const World& world, double time) {
     all.push_back(skin_of(world.boxes[n], time));
     all.back().name = fmt::format("box {}", n + 1);
   }
+  for (std::size_t n = 0; n < world.meshes.size(); ++n) {
+    all.push_back(skin_of(world.meshes[n], time));
+    all.back().name = fmt::format("obstacle {}", n + 1);
+  }
   return all;
 }
 
@@ -104,13 +118,13 @@ void add_obstacles(Skin& skin, const World& world) {
       skin.vertex.push_back(static_cast<std::int32_t>(p));
       skin.body_of_point.push_back(number);
     }
-    for (const std::array<std::int32_t, 4>& quad : obstacle.quads) {
-      for (const std::int32_t p : quad) skin.corners.push_back(first + p);
+    obstacle.each_face([&](std::span<const std::int32_t> face) {
+      for (const std::int32_t p : face) skin.corners.push_back(first + p);
       skin.ends.push_back(static_cast<std::int64_t>(skin.corners.size()));
       skin.body_of_face.push_back(number);
       skin.fragment.push_back(-1);
       skin.element.push_back(0);
-    }
+    });
     if (!skin.largest_stress.empty()) skin.largest_stress.resize(skin.vertex.size(), 0);
     if (!skin.exposed.empty()) skin.exposed.resize(skin.ends.size(), 0);
     if (!skin.equivalent.empty()) skin.equivalent.resize(skin.ends.size(), 0);

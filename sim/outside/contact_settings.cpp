@@ -11,17 +11,17 @@ Field<ContactSettings> with_kinds() {
   Field<S> kinds = field<S>(
       {{"floor", &S::floor}, {"obstacles", &S::obstacles}, {"fragments", &S::fragments}, {"self", &S::self}},
       "with",
-      "what it collides with\nfloor: the floor\nobstacles: the floor, spheres and boxes\nfragments: other "
+      "what it collides with\nfloor: the floor\nobstacles: the floor, spheres, boxes and meshes\nfragments: "
+      "other "
       "fragments, and other bodies whose contact has fragments as well\nself: fragments, and all faces of its "
-      "own\nNAMES of bodies, spheres, boxes or of the floor, in a <contact> of their own: friction and "
+      "own\nNAMES of bodies, obstacles or of the floor, in a <contact> of their own: friction and "
       "restitution with these alone, before what others say");
   kinds.type.names = true;
   return kinds;
 }
 
 AttributeType names_of_excluded() {
-  AttributeType type =
-      words_of("not", {}, "names of bodies, spheres, boxes or of the floor that it passes through");
+  AttributeType type = words_of("not", {}, "names of bodies, obstacles or of the floor that it passes through");
   type.names = true;
   return type;
 }

@@ -7,7 +7,7 @@ namespace rend {
 
 // How it collides with single things: what is given here counts for them in place of what counts for all.
 struct ContactPairSettings {
-  std::vector<std::string> with = {}; // names of bodies, spheres, boxes or of the floor
+  std::vector<std::string> with = {}; // names of bodies, obstacles or of the floor
   std::optional<double> friction = {}, restitution = {};
   SettingsSource source = {};
 };
@@ -15,7 +15,7 @@ template <> const Fields<ContactPairSettings>& fields_of();
 
 struct ContactSettings {
   bool floor = false;
-  bool obstacles = true;    // spheres and boxes; and the floor
+  bool obstacles = true;    // spheres, boxes and meshes; and the floor
   bool fragments = false;   // other fragments, and other bodies that ask for it
   bool self = false;        // faces of the same fragment as well; and `fragments`
   double thickness = 0.002; // [m], kept from all of them

@@ -26,10 +26,12 @@ template <> const Fields<World>& fields_of() {
 
 std::string World::called(std::size_t number) const {
   if (number == 0) return floor && !floor->name.empty() ? "the floor " + in_quotes(floor->name) : "the floor";
-  const bool round = number <= spheres.size();
-  const std::size_t n = round ? number : number - spheres.size();
-  const std::string& name = round ? spheres[n - 1].name : boxes[n - 1].name;
-  return fmt::format("{} {}", round ? "sphere" : "box", name.empty() ? std::to_string(n) : in_quotes(name));
+  const auto words = [](const char* kind, const auto& of, std::size_t n) {
+    return fmt::format("{} {}", kind, of[n].name.empty() ? std::to_string(n + 1) : in_quotes(of[n].name));
+  };
+  if (number >= number_of_mesh(0)) return words("obstacle", meshes, number - number_of_mesh(0));
+  if (number >= number_of_box(0)) return words("box", boxes, number - number_of_box(0));
+  return words("sphere", spheres, number - number_of_sphere(0));
 }
 
 void check_world(const World& world) {
@@ -40,6 +42,7 @@ void check_world(const World& world) {
     check_settings(box);
     check_box(box);
   }
+  for (const MeshObstacle& mesh : world.meshes) check_settings<MeshObstacleSettings>(mesh);
 }
 
 } // namespace rend

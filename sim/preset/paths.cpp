@@ -60,7 +60,9 @@ std::filesystem::path FileOfPreset::path() const {
 }
 
 std::string FileOfPreset::noun() const {
-  return node->name() == "mesh" ? "mesh" : node->name() == "look" ? "picture" : "file";
+  return node->name() == "mesh" || node->name() == "obstacle" ? "mesh"
+         : node->name() == "look"                             ? "picture"
+                                                              : "file";
 }
 
 // A <look> may come from the command line alone: its files are relative to the scene's own.
@@ -75,6 +77,8 @@ std::vector<FileOfPreset> files_of(const PresetNode& scene) {
            {"texture", "texture-back", "texture-inside", "roughness", "roughness-inside"})
         if (look->find(attribute) && !look->text(attribute).empty()) files.push_back({look, attribute, folder});
   }
+  for (const PresetNode* world : scene.all("world"))
+    for (const PresetNode* obstacle : world->all("obstacle")) files.push_back(file_of(*obstacle));
   return files;
 }
 

@@ -10,12 +10,12 @@
 
 namespace rend {
 
-// Whether `name`, given by a file in `folder`, refers to a file in or below that folder after following links:
-// false for an absolute name, for "..", and for a symbolic link that leads out.
+// Whether `name`, given by a file in `folder`, refers to a file in or below that folder after following
+// links: false for an absolute name, for "..", and for a symbolic link that leads out.
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-// UserError, at the attribute, for a <mesh>, <rules> or <look> of a preset that names a file which does not
-// stay below its folder.
+// UserError, at the attribute, for a <mesh>, <obstacle>, <rules> or <look> of a preset that names a file
+// which does not stay below its folder.
 void check_paths(const PresetNode& scene);
 
 // Whether `path`, after following links, is `folder` or is below it. A file that does not exist is located by

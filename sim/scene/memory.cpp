@@ -72,6 +72,9 @@ std::vector<MemoryEntry> footprint_of(const Body& body) {
 std::vector<MemoryEntry> footprint_of(const Scene& scene) {
   Gathering to;
   if (scene.contacts()) to.add("contact", "faces, pairs and touches", "", scene.contacts()->bytes());
+  std::size_t meshes = 0;
+  for (const MeshObstacle& mesh : scene.world().meshes) meshes += mesh.bytes();
+  to.add("contact", "meshes of obstacles", "", meshes);
   to.add("guard", "a state to go back to", "vertex", scene.guard_bytes());
   return std::move(to.all);
 }

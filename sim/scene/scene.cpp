@@ -27,6 +27,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   const double start = wall_clock();
   if (bodies_.empty()) throw UserError(Exit::BadInput, {}, "a scene needs a body", "add a <body>");
   check_world(world_);
+  for (const MeshObstacle& mesh : world_.meshes)
+    notes_.insert(notes_.end(), mesh.notes.begin(), mesh.notes.end());
   build_seconds_ = definition.build_seconds;
   for (auto& body : bodies_) {
     body->profile = profile_.get();

@@ -3,6 +3,7 @@
 
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/sim/mesh_files.h"
 #include "tests/sim/presets.h"
 
 #include <gmock/gmock.h>
@@ -52,6 +53,14 @@ TEST(PassThrough, is_told_of_spheres_and_boxes_too) {
   EXPECT_THAT(notes_after(300, "", world),
               ElementsAre(HasSubstr("a sphere from frame 5"))); // 0.3 m: not above 0.2
   EXPECT_THAT(notes_after(400, "", world), ElementsAre(HasSubstr("a sphere"), HasSubstr("a box from frame 7")));
+  EXPECT_THAT(notes_after(400, R"(<contact with="obstacles"/>)", world), IsEmpty());
+}
+
+TEST(PassThrough, is_told_of_meshes_that_are_closed) {
+  const std::string world = fmt::format(R"(<obstacle file="{}"/>)",
+                                        mesh_files::box("through.obj", {-0.1, -0.1, -0.4}, {0.1, 0.1, 0}));
+  EXPECT_THAT(notes_after(300, "", world), IsEmpty());
+  EXPECT_THAT(notes_after(400, "", world), ElementsAre(HasSubstr("an obstacle from frame 7")));
   EXPECT_THAT(notes_after(400, R"(<contact with="obstacles"/>)", world), IsEmpty());
 }
 

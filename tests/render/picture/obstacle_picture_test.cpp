@@ -63,5 +63,33 @@ TEST(ObstaclePicture, a_box_that_moves_is_where_it_is_at_the_time) {
   EXPECT_LT((pose.of(box.middle()) - Vec3(1, 2, 3)).norm(), 1e-14);
 }
 
+// Two squares that meet along the y axis: flat, or at an angle.
+std::vector<Corner> corners_of_wings(double height) {
+  MeshObstacleSettings settings;
+  const MeshObstacle wings(
+      settings,
+      {.points = {{-1, 0, height}, {0, 0, 0}, {1, 0, height}, {-1, 1, height}, {0, 1, 0}, {1, 1, height}},
+       .triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}});
+  const FrameBody picture = picture_of(wings, MeshLook{});
+  EXPECT_TRUE(picture.two_sided);
+  return picture.corners;
+}
+
+TEST(ObstaclePicture, a_mesh_is_smooth_but_for_its_sharp_edges) {
+  for (const Corner& corner : corners_of_wings(0.1)) // they meet at 11 degrees
+    EXPECT_NEAR(corner.normal[2], 1, corner.position[0] == 0 ? 1e-3 : 0.01);
+  for (const Corner& corner : corners_of_wings(1)) EXPECT_NEAR(corner.normal[2], std::sqrt(0.5), 1e-6); // 90
+}
+
+TEST(ObstaclePicture, a_mesh_that_moves_takes_its_normals_along) {
+  MeshObstacleSettings settings;
+  settings.motion.rotate = std::array<double, 4>{1, 0, 0, 90};
+  settings.motion.centre = Vec3::Zero();
+  const MeshObstacle mesh(settings, {.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
+  const FrameBody now = moved(picture_of(mesh, MeshLook{}), mesh.pose(1));
+  EXPECT_LT((vec(now.corners[2].position) - Vec3(0, 0, 1)).norm(), 1e-6);
+  EXPECT_LT((vec(now.corners[2].normal) - Vec3(0, -1, 0)).norm(), 1e-6);
+}
+
 } // namespace
 } // namespace rend::obstacle_picture_test

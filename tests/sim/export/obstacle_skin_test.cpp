@@ -89,5 +89,19 @@ TEST(ObstacleSkin, has_the_velocities_of_its_points) {
     EXPECT_LT((now[1].velocities[p] - (after.points[p] - before.points[p]) / (2 * h)).norm(), 1e-4);
 }
 
+TEST(ObstacleSkin, of_a_mesh_is_its_triangles_where_they_have_moved_to) {
+  MeshObstacleSettings settings;
+  settings.motion.velocity = Vec3(0, 0, 2);
+  World world;
+  world.meshes.emplace_back(
+      settings, ObstacleSurface{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
+  const ObstacleSkin skin = obstacle_skins(world, 0.5).at(0);
+  EXPECT_EQ(skin.name, "obstacle 1");
+  EXPECT_TRUE(skin.quads.empty());
+  ASSERT_EQ(skin.triangles.size(), 1u);
+  EXPECT_TRUE(skin.points[1].isApprox(Vec3(1, 0, 1), 1e-14));
+  EXPECT_LT((skin.velocities[1] - Vec3(0, 0, 2)).norm(), 1e-8);
+}
+
 } // namespace
 } // namespace rend::obstacle_skin_test
