@@ -100,6 +100,13 @@ bool Contacts::with_faces() const {
   return std::any_of(bodies_.begin(), bodies_.end(), [](const auto& body) { return body->faces.has_value(); });
 }
 
+long Contacts::searches() const {
+  long sum = fragments_ ? fragments_->searches() + fragments_->sweeps() : 0;
+  for (const EdgeContact* edges : {edges_.get(), obstacle_edges_.get()})
+    if (edges) sum += edges->searches();
+  return sum;
+}
+
 void Contacts::store(Archive& archive) {
   archive.mark("contacts");
   if (!archive.reading()) return;

@@ -35,6 +35,7 @@ public:
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
   const EdgeContact* edges() const { return edges_.get(); }             // null: edges of none can touch
   const CrossingGuard* guard() const { return guard_.get(); } // null: the floor alone, or a scheme that solves
+  long searches() const;                                      // for pairs of any kind, so far
   bool with_faces() const; // some body can touch more than the floor, or there are spheres
   std::size_t bytes() const;
   void store(Archive& archive); // after the bodies: figures alone, since pairs are found anew

@@ -24,8 +24,7 @@ struct Events {
   long tried, rejected, searches;
   bool operator==(const Events&) const = default;
   static Events of(const Scene& scene, long tried) {
-    const FragmentContact* fragments = scene.contacts() ? scene.contacts()->fragments() : nullptr;
-    return {tried, scene.guard().rejected, fragments ? fragments->searches() + fragments->sweeps() : 0};
+    return {tried, scene.guard().rejected, scene.contacts() ? scene.contacts()->searches() : 0};
   }
 };
 
