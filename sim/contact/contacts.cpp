@@ -66,6 +66,10 @@ void Contacts::advance(double time, double step) {
   if (in_ != ContactIn::Result) end_step(time, step, again);
 }
 
+std::optional<ThroughEachOther> Contacts::crossing() const {
+  return guard_ ? guard_->left(bodies_, obstacles_) : std::nullopt;
+}
+
 bool Contacts::anything() {
   return !answer_.empty() || (guard_ && guard_->comes_through(bodies_, lists(), obstacles_, answer_));
 }

@@ -30,6 +30,7 @@ struct Course {
     }
     size = (x1[1] - x1[0]).norm() + (y1[1] - y1[0]).norm() + (y1[2] - y1[0]).norm();
   }
+  bool surely_through() const { return passes_through(x1, y1, 2 * least_depth * size); }
   bool comes_through() const { // in this step
     return passes_through(x1, y1, least_depth * size) && !passes_through(x0, y0, least_depth * size);
   }
@@ -91,6 +92,20 @@ void CrossingGuard::keep_apart(const ContactBodies& bodies, ContactPairs* pairs,
   }
   figures_.left += found();
   account(of);
+}
+
+std::optional<ThroughEachOther> CrossingGuard::left(const ContactBodies& bodies,
+                                                    const ObstacleContact& obstacles) const {
+  for (const EdgeFacePair& pair : crossing_) {
+    if (!Course(bodies, pair).surely_through()) continue;
+    const ContactBody &a = *bodies[pair.body], &b = *bodies[pair.face_body];
+    if (!a.body) return ThroughEachOther{b.body, nullptr, a.obstacle->number};
+    if (!b.body) return ThroughEachOther{a.body, nullptr, b.obstacle->number};
+    return ThroughEachOther{a.body, b.body};
+  }
+  for (const BoxCrossing& each : in_boxes_)
+    if (each.surely) return ThroughEachOther{bodies[each.body]->body, nullptr, obstacles.number_of(each)};
+  return {};
 }
 
 bool CrossingGuard::comes_through(const ContactBodies& bodies, ContactPairs* pairs, ObstacleContact& obstacles,

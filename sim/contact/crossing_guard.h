@@ -20,6 +20,8 @@
 // a start that overlaps is refused or pushed out (start_overlap.h). Torn sides of one body are not looked
 // after: they lie on each other when they part, on no side of each other.
 //
+// Where two of a zone move as prescribed, they may still cross: the run then stops (Scene::resolve_contacts).
+//
 // What passes in one step would cross neither at its start nor at its end, if it is thinner than its way; it is
 // stopped before that, along straight paths (fragment_contact.h). The floor is not looked at again.
 #pragma once
@@ -41,7 +43,14 @@ namespace rend {
 struct CrossingFigures {
   long tried = 0;  // to be stopped by impulses, once for each round
   long joined = 0; // left by these, so moved as one
-  long left = 0;   // that cross nevertheless: between two things that move as prescribed
+  long left = 0;   // that cross nevertheless: what is held or moved as prescribed leaves them no way out
+};
+
+// Two that go through each other.
+struct ThroughEachOther {
+  const Body* body = nullptr;
+  const Body* other = nullptr;              // may be the same; null: an obstacle
+  std::optional<std::size_t> obstacle = {}; // its number in the world
 };
 
 class CrossingGuard {
@@ -56,6 +65,8 @@ public:
                      ContactAnswer& answer);
 
   bool acted() const { return acted_; } // in the last step
+  // The first of those that cross at its end nevertheless, by more than rounding may do; none: nothing does.
+  std::optional<ThroughEachOther> left(const ContactBodies& bodies, const ObstacleContact& obstacles) const;
   const CrossingFigures& figures() const { return figures_; }
   std::size_t bytes() const {
     return bytes_of(crossing_) + bytes_of(in_boxes_) + bytes_of(pushed_) + bytes_of(index_);

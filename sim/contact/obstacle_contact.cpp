@@ -274,9 +274,10 @@ void ObstacleContact::find_crossing(const ContactBody& body, BoxCrossing one, st
     if ((codes_[p] & codes_[q] & codes_[r]) != 0) continue;
     const TriangleCorners from{body.from(p), body.from(q), body.from(r)},
         to{body.position(p), body.position(q), body.position(r)};
-    if (separation(box, back(way.to, to)).distance < least &&
-        separation(box, back(way.from, from)).distance >= least)
-      found.push_back(one);
+    const double distance = separation(box, back(way.to, to)).distance;
+    if (distance >= least || separation(box, back(way.from, from)).distance < least) continue;
+    one.surely = distance < 2 * least;
+    found.push_back(one);
   }
 }
 

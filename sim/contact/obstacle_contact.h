@@ -28,6 +28,7 @@ struct BoxCrossing {
   std::uint32_t body = 0;     // index
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   std::uint32_t box = 0;      // index into the world's
+  bool surely = false;        // twice as deep as rounding is taken to be
 };
 
 class ObstacleContact {
@@ -48,6 +49,7 @@ public:
   // the step, at half of the distance.
   void keep_out(const ContactBodies& bodies, const BoxCrossing& crossing,
                 std::vector<ContactConstraint>& wanted) const;
+  std::size_t number_of(const BoxCrossing& crossing) const { return world_.number_of_box(crossing.box); }
   // [m], where a point of a box is at the end of the step that is at `from` [m] at its start.
   Vec3 carried(std::size_t box, const Vec3& from) const;
   std::size_t bytes() const { return bytes_of(codes_) + bytes_of(sphere_steps_) + bytes_of(box_steps_); }

@@ -134,6 +134,7 @@ private:
   FrequencyBounds bounds_until_torn(std::size_t body);
   double limit_by(const Scheme& scheme,
                   const std::function<FrequencyBounds(std::size_t body)>& bounds_of) const;
+  [[noreturn]] void stop_crossing(const ThroughEachOther& through) const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
   void reach(long goal); // steps done

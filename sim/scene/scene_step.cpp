@@ -189,6 +189,7 @@ StepFailure Scene::integrate(double time, double step) {
 // All bodies are checked before one of them is committed.
 StepFailure Scene::resolve_contacts(double time, double step) {
   apply_contacts(time, step);
+  if (const auto through = contacts_ ? contacts_->crossing() : std::nullopt) stop_crossing(*through);
   return finite() ? StepFailure::None : StepFailure::NotFinite;
 }
 
@@ -356,6 +357,19 @@ void Scene::check_account() const {
                   e.gained, e.scale),
       scheme().limit == &no_limit ? "take a smaller step"
                                   : "take a smaller step, another integrator, or add viscosity");
+}
+
+// No such state is committed.
+void Scene::stop_crossing(const ThroughEachOther& through) const {
+  std::string with = "itself";
+  if (through.obstacle)
+    with = world_.called(*through.obstacle);
+  else if (through.other != through.body)
+    with = fmt::format("body '{}'", through.other->name);
+  stop(*through.body,
+       fmt::format("it would go through {}: what is held, driven or moved as prescribed leaves them no way out",
+                   with),
+       "let what is prescribed keep them apart, or do not ask for contact between them");
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {

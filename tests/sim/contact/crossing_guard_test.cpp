@@ -6,6 +6,7 @@
 #include "sim/heaps.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,6 +19,8 @@ namespace {
 using heaps::crossings;
 using heaps::goes_through;
 using heaps::heap;
+using testing::AllOf;
+using testing::HasSubstr;
 
 int heaps() { // as many as the time allows
   return std::getenv("REND_WHOLE") ? 200 : 8;
@@ -92,6 +95,48 @@ TEST(CrossingGuard, keeps_a_face_out_of_a_box_that_is_thinner) {
     }
     EXPECT_EQ(scene->contacts()->guard()->figures().left, 0);
   }
+}
+
+// What the run says that ends when `preset` is advanced by 2000 steps; empty: it does not end.
+std::string end_of(const std::string& preset) {
+  const auto scene = presets::load(preset);
+  try {
+    for (int n = 0; n < 2000; ++n) {
+      scene->step();
+      EXPECT_EQ(crossings(*scene.scene), 0) << n;
+    }
+  } catch (const Unstable& end) {
+    EXPECT_EQ(end.code, Exit::Unstable);
+    EXPECT_EQ(crossings(*scene.scene), 0); // the state before
+    return end.what();
+  }
+  return {};
+}
+
+// A sheet of two triangles on its edge, whose vertices all move as prescribed.
+std::string driven(const std::string& name, double y, double turn, double speed) {
+  return fmt::format(R"(<body name="{}"><sheet pattern="triangles" cells="1 1" size="1 1"/>)"
+                     R"(<place rotate="90 {} 0" translate="-0.5 {} -0.5"/><mass total="1"/>)"
+                     R"(<springs><stretch k="100"/></springs><drive all="yes" velocity="0 {} 0"/>)"
+                     R"(<contact with="obstacles fragments" thickness="0.001"/></body>)",
+                     name, turn, y, speed);
+}
+
+TEST(CrossingGuard, stops_the_run_before_two_bodies_go_through_each_other_that_are_prescribed) {
+  const std::string end = R"(<world gravity="0 0 0"/><time step="1e-3" duration="2"/></scene>)";
+  EXPECT_THAT(end_of("<scene>" + driven("a", 0, 0, 0.5) + driven("b", 0.6, 20, -0.5) + end),
+              AllOf(HasSubstr("body 'a'"), HasSubstr("through body 'b'"), HasSubstr("no way out")));
+  EXPECT_EQ(end_of("<scene>" + driven("a", 0, 0, 0.5) + driven("b", 0.6, 20, 0.5) + end), "");
+}
+
+TEST(CrossingGuard, stops_the_run_before_a_box_goes_through_what_is_held) {
+  const std::string held = "<scene>" + driven("a", 0, 0, 0);
+  const std::string end = R"(</world><time step="1e-3" duration="2"/></scene>)";
+  const std::string box = R"(<world gravity="0 0 0"><box low="-0.1 0.2 -0.1" high="0.1 0.4 0.1">)"
+                          R"(<key at="0" position="0 0.3 0"/><key at="1" position="0 {} 0"/></box>)";
+  EXPECT_THAT(end_of(held + fmt::format(fmt::runtime(box), -0.3) + end),
+              AllOf(HasSubstr("body 'a'"), HasSubstr("through box 1"), HasSubstr("no way out")));
+  EXPECT_EQ(end_of(held + fmt::format(fmt::runtime(box), 0.15) + end), "");
 }
 
 } // namespace
