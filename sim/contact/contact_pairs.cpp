@@ -318,7 +318,7 @@ void ContactPairs::sort() {
 // For the edges of one and the triangles of the other: those that are nearer than the skin, or may be in this
 // step.
 void ContactPairs::search_edges(const Neighbours& list, const Fragment& of, const Fragment& with) {
-  const double reach = std::max(list.skin, moved(list));
+  const double reach = list.skin;
   each_near(
       of, with, of.sides, of.sides_end, [&](const Box& box) { return grown(box, reach); },
       [&](std::uint32_t s) { return fragments_.around(fragments_.side(s)); },
