@@ -23,6 +23,7 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
   for (const auto& body : contacts->moving())
     if (body->meets_faces() && !contacts->fragments_)
       contacts->fragments_ = std::make_unique<FragmentContact>(!scheme.solves);
+  if (contacts->fragments_ && !scheme.solves) contacts->torn_ = std::make_unique<TornSides>();
   if (contacts->with_faces() && !scheme.solves) contacts->guard_ = std::make_unique<CrossingGuard>();
   const auto edges_with = [&](EdgeContact::With with) {
     return EdgeContact::is_asked_for(contacts->bodies_, with) ? std::make_unique<EdgeContact>(with) : nullptr;
@@ -94,6 +95,7 @@ void Contacts::end_step(double time, double step, bool drifted) {
 
 void Contacts::detect() {
   answer_.begin();
+  if (torn_) torn_->detect(bodies_, answer_);
   if (fragments_) fragments_->detect(bodies_, answer_);
   for (EdgeContact* edges : {edges_.get(), obstacle_edges_.get()})
     if (edges) edges->detect(bodies_, answer_);
@@ -119,12 +121,13 @@ void Contacts::store(Archive& archive) {
   if (fragments_) fragments_->forget();
   for (EdgeContact* edges : {edges_.get(), obstacle_edges_.get()})
     if (edges) edges->forget();
+  if (torn_) torn_->forget();
 }
 
 std::size_t Contacts::bytes() const {
   std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0) +
                     (edges_ ? edges_->bytes() : 0) + (obstacle_edges_ ? obstacle_edges_->bytes() : 0) +
-                    (guard_ ? guard_->bytes() : 0);
+                    (guard_ ? guard_->bytes() : 0) + (torn_ ? torn_->bytes() : 0);
   for (const auto& body : bodies_) sum += body->bytes();
   return sum;
 }

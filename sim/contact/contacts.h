@@ -1,7 +1,7 @@
 // All contacts of a scene, at the end of each step, after every body has been advanced by itself:
 //
 //   detect       floor, spheres and boxes (obstacle_contact.h), bodies and fragments (fragment_contact.h,
-//                edge_contact.h)
+//                edge_contact.h), the sides of cracks (torn_sides.h)
 //   constraints  of one kind (contact_constraint.h)
 //   answer       by impulses, all at once (contact_answer.h)
 //   guard        what would go through each other nevertheless (crossing_guard.h)
@@ -17,6 +17,7 @@
 #include "sim/contact/edge_contact.h"
 #include "sim/contact/fragment_contact.h"
 #include "sim/contact/obstacle_contact.h"
+#include "sim/contact/torn_sides.h"
 
 #include <span>
 
@@ -35,7 +36,8 @@ public:
 
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
-  const EdgeContact* edges() const { return edges_.get(); }             // null: edges of none can touch
+  const TornSides* torn_sides() const { return torn_.get(); } // null: as there, or a scheme that solves
+  const EdgeContact* edges() const { return edges_.get(); }   // null: edges of none can touch
   const CrossingGuard* guard() const { return guard_.get(); } // null: the floor alone, or a scheme that solves
   long searches() const;                                      // for pairs of any kind, so far
   bool with_faces() const; // some body can touch more than the floor, or there are spheres
@@ -60,6 +62,7 @@ private:
   std::size_t moving_ = 0;                      // of them are bodies
   std::unique_ptr<FragmentContact> fragments_;  // null: not enabled in any body
   std::unique_ptr<CrossingGuard> guard_;        // null: as guard()
+  std::unique_ptr<TornSides> torn_;             // null: no fragments, or a scheme that solves
   std::unique_ptr<EdgeContact> edges_;          // null: no two bodies can touch, and none itself
   std::unique_ptr<EdgeContact> obstacle_edges_; // null: none meets a mesh
   ObstacleContact obstacles_;

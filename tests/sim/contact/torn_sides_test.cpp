@@ -1,0 +1,160 @@
+// The two sides of a crack in a solid: they do not turn through each other while they still hang together, part
+// freely, and keep momentum.
+#include "sim/contact/torn_sides.h"
+
+#include "sim/presets.h"
+#include "sim/topology/count.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace rend::torn_sides_test {
+namespace {
+
+const std::string none, fragments = R"(<contact with="fragments" thickness="0.004" friction="0.3"/>)";
+
+// Two cells along x, 0.1 m each, and `high` of them along z.
+std::unique_ptr<Scene> blocks(const std::string& contact, int high = 1) {
+  return presets::load(fmt::format(
+      R"(<scene><body><bar pattern="hexahedra" cells="2 1 {}" size="0.2 0.1 {}"/><mass density="1000"/>
+         <elasticity model="corotational" young="2e4" poisson="0.3" damping-stiffness="1e-3"/>
+         <tear criterion="atomic-border" threshold="1e9" change="separate"/>{}</body>
+         <world gravity="0 0 0"/><time integrator="symplectic" step="5e-4" duration="1"/></scene>)",
+      high, 0.1 * high, contact));
+}
+
+// Parts what lies on either side of x = 0.1 above z = `above`.
+void tear(Body& body, double above = 0) {
+  EmbeddedMap& map = *body.map;
+  const auto middle = [&](Orbit of, Dart d) {
+    Vec3 sum = Vec3::Zero();
+    const std::vector<Dart> cell = darts_of(map.map(), of, d);
+    for (Dart e : cell) sum += map.rest_of(e);
+    return Vec3(sum / static_cast<double>(cell.size()));
+  };
+  std::vector<Dart> darts;
+  map.map().for_each_dart([&](Dart d) {
+    const Dart e = map.map().alpha(3, d);
+    const bool between = d < e && (middle(Volume, d).x() < 0.1) != (middle(Volume, e).x() < 0.1);
+    if (between && middle(FaceOfVolume, d).z() > above) darts.push_back(d);
+  });
+  map.edit([&](Edit& edit) {
+    for (Dart d : darts)
+      if (!map.map().is_free(3, d)) unsew(edit, 3, d);
+  });
+  body.rebind();
+}
+
+// Whether a vertex is one of the left half.
+std::vector<bool> left_vertices(const Body& body) {
+  std::vector<bool> left;
+  const CellIndex& vertices = body.map->cells(Vertex);
+  for (Slot v = 0; v < vertices.slots(); ++v) {
+    double most = -1e300;
+    for (Dart d : darts_of(body.map->map(), Vertex, vertices.first_dart(v)))
+      for (Dart e : darts_of(body.map->map(), Volume, d)) most = std::max(most, body.map->rest_of(e).x());
+    left.push_back(most < 0.15);
+  }
+  return left;
+}
+
+// Sets velocities: those of the left half, and of the right one with x turned around; of z in [0.1, 0.2] the
+// higher the faster if `turning`.
+void push(Scene& scene, const Vec3& velocity, bool turning = false) {
+  const std::vector<bool> left = left_vertices(scene.body());
+  const auto& rest = scene.body().map->rest();
+  Record* v = scene.body().map->velocity().values().data();
+  for (Slot n = 0; n < left.size(); ++n) {
+    const double share = turning ? (rest[n].z - 0.1) / 0.1 : 1;
+    v[n] = Record(share * (left[n] ? 1 : -1) * velocity.x(), share * velocity.y(), share * velocity.z());
+  }
+}
+
+// [m]: between the two vertices of each corner that has been torn, the least.
+double opening(const Scene& scene) {
+  const std::vector<bool> left = left_vertices(scene.body());
+  const auto& rest = scene.body().map->rest();
+  const auto& x = scene.body().map->position();
+  double least = 1e300;
+  for (Slot a = 0; a < left.size(); ++a)
+    for (Slot b = 0; b < left.size(); ++b)
+      if (left[a] && !left[b] && rest[a].vec() == rest[b].vec()) least = std::min(least, x[b].x - x[a].x);
+  return least;
+}
+
+double least_opening(Scene& scene, int steps) {
+  double least = 1e300;
+  for (int n = 0; n < steps; ++n) {
+    scene.step();
+    least = std::min(least, opening(scene));
+  }
+  return least;
+}
+
+constexpr double touches = -1e-9; // [m]
+
+TEST(TornSides, of_blocks_that_are_pushed_together_again_do_not_pass_nor_stick) {
+  const auto scene = blocks(fragments);
+  tear(scene->body());
+  push(*scene, {0.5, 0, 0});
+  EXPECT_GT(least_opening(*scene, 200), touches);
+  push(*scene, {-0.5, 0, 0});
+  const double energy = scene->kinetic_energy();
+  const double before = opening(*scene);
+  EXPECT_GT(least_opening(*scene, 100), touches);
+  EXPECT_LE(scene->kinetic_energy(), energy + 1);
+  EXPECT_GT(opening(*scene), before + 0.03) << "they part freely";
+}
+
+TEST(TornSides, do_not_turn_through_each_other_about_the_tip_of_the_crack) {
+  const auto with = blocks(fragments, 2), without = blocks(none, 2);
+  for (Scene* scene : {with.get(), without.get()}) {
+    tear(scene->body(), 0.1);
+    EXPECT_EQ(count_cells(scene->body().map->map()).fragments, 1u);
+    push(*scene, {0.5, 0, 0}, true);
+  }
+  const Vec3 momentum = with->momentum();
+  EXPECT_GT(least_opening(*with, 100), touches);
+  EXPECT_EQ(with->contacts()->torn_sides()->faces(), 1u);
+  EXPECT_LT((with->momentum() - momentum).norm(), 1e-12);
+  EXPECT_LT(least_opening(*without, 100), -0.005) << "this is what contact is for";
+}
+
+TEST(TornSides, that_hang_together_open_as_if_there_were_no_contact) {
+  const auto with = blocks(fragments, 2), without = blocks(none, 2);
+  for (Scene* scene : {with.get(), without.get()}) {
+    tear(scene->body(), 0.1);
+    push(*scene, {-0.5, 0, 0}, true);
+    for (int n = 0; n < 40; ++n) scene->step();
+  }
+  EXPECT_GT(opening(*with), 0.005);
+  EXPECT_EQ(opening(*with), opening(*without));
+}
+
+TEST(TornSides, that_slide_along_each_other_keep_their_momentum_and_make_no_energy) {
+  const auto scene = blocks(fragments, 2);
+  tear(scene->body(), 0.1);
+  push(*scene, {0.4, 0.3, 0.1}, true);
+  const Vec3 momentum = scene->momentum();
+  const double energy = scene->kinetic_energy();
+  for (int n = 0; n < 200; ++n) {
+    scene->step();
+    EXPECT_LE(scene->kinetic_energy() + scene->elastic_energy(), 1.01 * energy);
+  }
+  EXPECT_LT((scene->momentum() - momentum).norm(), 1e-12);
+}
+
+TEST(TornSides, cost_nothing_where_nothing_has_torn) {
+  const auto whole = blocks(fragments);
+  whole->step();
+  EXPECT_EQ(whole->contacts()->torn_sides()->bytes(), 0u);
+  const auto sheet = presets::load(
+      R"(<scene><body><sheet cells="2 2"/><mass total="1"/><springs><stretch k="10"/></springs>)" + fragments +
+      R"(</body><world gravity="0 0 0"/><time step="1e-3" duration="1"/></scene>)");
+  sheet->step();
+  EXPECT_EQ(sheet->contacts()->torn_sides()->bytes(), 0u);
+}
+
+} // namespace
+} // namespace rend::torn_sides_test
