@@ -3,16 +3,16 @@
 //
 // They lie on each other when the crack opens. Their distance is 0, and its direction does not tell on which
 // side each of them is; vertices against faces (fragment_contact.h) know that only of different fragments. So
-// the sides are kept apart by a sign. Two faces were one if fracture has laid both bare and their corners lie at
-// the same places at rest. With the outward normals of both at the start of the step, m of the one and m' of
+// the sides are kept apart by a sign. Two faces were one if fracture has laid both bare and their corners lie
+// at the same places at rest. With the outward normals of both at the start of the step, m of the one and m' of
 // the other, its corners x and those x' where these lie at rest,
 //
 //   n = (m' − m)/|m' − m|,   gap = n·(x − x')
 //
 // is not to become negative, for each corner of which there are two by now. All faces around a corner ask for
 // this at once: what fits into a notch leaves it only where all its walls let it. A gap that has opened is kept
-// up to the thickness, so that when the crack is through, its sides do not coincide any more. Nothing is pushed,
-// and parting is free.
+// up to the thickness, so that when the crack is through, its sides do not coincide any more. Nothing is
+// pushed, and parting is free.
 //
 // It is asked for where x and x' are still opposite each other: within half a face along it, and no deeper than
 // that, with m·m' < 0. What has slid farther or come loose is for fragment_contact.h. Looked at anew in each
@@ -24,8 +24,8 @@
 // can be measured. Impulses for edges that come through a face, as between bodies (crossing_guard.h): as many
 // crossings as before, for 5 times the time.)
 //
-// Limits: a sheet's sides have no normal to tell them apart, and meet along a line only. Faces that have an edge
-// or a vertex in common at rest, but were not one, are not opposite each other.
+// Limits: a sheet's sides have no normal to tell them apart, and meet along a line only. Faces that have an
+// edge or a vertex in common at rest, but were not one, are not opposite each other.
 #pragma once
 
 #include "sim/contact/contact_answer.h"
