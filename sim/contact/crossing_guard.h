@@ -18,7 +18,7 @@
 //
 // Edges and faces that may cross are listed with those of contact_pairs.h. What crosses already is left alone:
 // a start that overlaps is refused or pushed out (start_overlap.h). Torn sides of one body are not looked
-// after: they lie on each other when they part, on no side of each other.
+// after: they lie on each other when they part, on no side of each other (torn_sides.h).
 //
 // Where two of a zone move as prescribed, they may still cross: the run then stops (Scene::resolve_contacts).
 //

@@ -20,7 +20,7 @@
 //
 // (Before this, most crossings began within a fragment: its sides had turned through each other about the
 // vertices that they shared. Vertices against all faces around the joined one, signed likewise: half as many
-// crossings as without, in fig-7.15, for 1.8 times the time; pairs of corners alone: a sixth, for no time that
+// crossings as without, in fig-7.15, for 1.8 times the time; pairs of corners alone: a fifth, for no time that
 // can be measured. Impulses for edges that come through a face, as between bodies (crossing_guard.h): as many
 // crossings as before, for 5 times the time.)
 //
