@@ -68,7 +68,7 @@ void Contacts::advance(double time, double step) {
 }
 
 std::optional<ThroughEachOther> Contacts::crossing() const {
-  return guard_ ? guard_->left(bodies_, obstacles_) : std::nullopt;
+  return guard_ ? guard_->prescribed(bodies_, obstacles_) : std::nullopt;
 }
 
 bool Contacts::anything() {

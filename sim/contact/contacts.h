@@ -31,7 +31,7 @@ public:
                                       const Scheme& scheme);
 
   void advance(double time, double step); // [s]: changes the `next` of bodies and spheres
-  // Of the step that was advanced: what goes through each other at its end; none: nothing.
+  // Of the step that was advanced: what is prescribed and goes through each other at its end; none: nothing.
   std::optional<ThroughEachOther> crossing() const;
 
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }

@@ -94,17 +94,26 @@ void CrossingGuard::keep_apart(const ContactBodies& bodies, ContactPairs* pairs,
   account(of);
 }
 
-std::optional<ThroughEachOther> CrossingGuard::left(const ContactBodies& bodies,
-                                                    const ObstacleContact& obstacles) const {
+std::optional<ThroughEachOther> CrossingGuard::prescribed(const ContactBodies& bodies,
+                                                          const ObstacleContact& obstacles) const {
+  const auto prescribed = [](const ContactBody& body, std::span<const Slot> vertices) {
+    return std::ranges::all_of(vertices, [&](Slot v) { return body.inverse_mass(v).isZero(0); });
+  };
+  const auto corners = [&](std::uint32_t body, std::uint32_t triangle) {
+    return std::span(bodies[body]->faces->triangles()[triangle].vertex);
+  };
   for (const EdgeFacePair& pair : crossing_) {
-    if (!Course(bodies, pair).surely_through()) continue;
+    if (!prescribed(*bodies[pair.body], pair.edge) || !Course(bodies, pair).surely_through() ||
+        !prescribed(*bodies[pair.face_body], corners(pair.face_body, pair.triangle)))
+      continue;
     const ContactBody &a = *bodies[pair.body], &b = *bodies[pair.face_body];
     if (!a.body) return ThroughEachOther{b.body, nullptr, a.obstacle->number};
     if (!b.body) return ThroughEachOther{a.body, nullptr, b.obstacle->number};
     return ThroughEachOther{a.body, b.body};
   }
   for (const BoxCrossing& each : in_boxes_)
-    if (each.surely) return ThroughEachOther{bodies[each.body]->body, nullptr, obstacles.number_of(each)};
+    if (each.surely && prescribed(*bodies[each.body], corners(each.body, each.triangle)))
+      return ThroughEachOther{bodies[each.body]->body, nullptr, obstacles.number_of(each)};
   return {};
 }
 

@@ -20,7 +20,8 @@
 // a start that overlaps is refused or pushed out (start_overlap.h). Torn sides of one body are not looked
 // after: they lie on each other when they part, on no side of each other (torn_sides.h).
 //
-// Where two of a zone move as prescribed, they may still cross: the run then stops (Scene::resolve_contacts).
+// Two sides that are prescribed cross nevertheless: the run then stops before (Scene::resolve_contacts). Where
+// several of a zone are, as boxes that pinch a cloth, it follows one of them, and may go through the others.
 //
 // What passes in one step would cross neither at its start nor at its end, if it is thinner than its way; it is
 // stopped before that, along straight paths (fragment_contact.h). The floor is not looked at again.
@@ -46,7 +47,7 @@ struct CrossingFigures {
   long left = 0;   // that cross nevertheless: what is held or moved as prescribed leaves them no way out
 };
 
-// Two that go through each other.
+// Two that go through each other, as prescribed.
 struct ThroughEachOther {
   const Body* body = nullptr;
   const Body* other = nullptr;              // may be the same; null: an obstacle
@@ -65,8 +66,10 @@ public:
                      ContactAnswer& answer);
 
   bool acted() const { return acted_; } // in the last step
-  // The first of those that cross at its end nevertheless, by more than rounding may do; none: nothing does.
-  std::optional<ThroughEachOther> left(const ContactBodies& bodies, const ObstacleContact& obstacles) const;
+  // The first of those that cross at its end nevertheless, by more than rounding may do, and are prescribed on
+  // both sides; none: nothing does.
+  std::optional<ThroughEachOther> prescribed(const ContactBodies& bodies,
+                                             const ObstacleContact& obstacles) const;
   const CrossingFigures& figures() const { return figures_; }
   std::size_t bytes() const {
     return bytes_of(crossing_) + bytes_of(in_boxes_) + bytes_of(pushed_) + bytes_of(index_);

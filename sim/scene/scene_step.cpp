@@ -367,9 +367,10 @@ void Scene::stop_crossing(const ThroughEachOther& through) const {
   else if (through.other != through.body)
     with = fmt::format("body '{}'", through.other->name);
   stop(*through.body,
-       fmt::format("it would go through {}: what is held, driven or moved as prescribed leaves them no way out",
-                   with),
-       "let what is prescribed keep them apart, or do not ask for contact between them");
+       fmt::format(
+           "it would go through {} there, and neither gives way: both are held, driven or moved as prescribed",
+           with),
+       "keep them apart, or do not ask for contact between them");
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {
