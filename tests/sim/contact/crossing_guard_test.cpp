@@ -123,7 +123,8 @@ std::string driven(const std::string& name, double y, double turn, double speed)
 }
 
 TEST(CrossingGuard, stops_the_run_before_two_bodies_go_through_each_other_that_are_prescribed) {
-  const std::string end = R"(<world gravity="0 0 0"/><time step="1e-3" duration="2"/></scene>)";
+  const std::string end =
+      R"(<world gravity="0 0 0"><floor z="-9"/></world><time step="1e-3" duration="2"/></scene>)";
   EXPECT_THAT(end_of("<scene>" + driven("a", 0, 0, 0.5) + driven("b", 0.6, 20, -0.5) + end),
               AllOf(HasSubstr("body 'a'"), HasSubstr("through body 'b'"), HasSubstr("neither gives way")));
   EXPECT_EQ(end_of("<scene>" + driven("a", 0, 0, 0.5) + driven("b", 0.6, 20, 0.5) + end), "");
