@@ -113,13 +113,13 @@ std::string end_of(const std::string& preset) {
   return {};
 }
 
-// A sheet of two triangles on its edge, whose vertices all move as prescribed.
-std::string driven(const std::string& name, double y, double turn, double speed) {
+// A sheet of two triangles that stands on its edge but for a tilt [degrees], and moves as prescribed.
+std::string driven(const std::string& name, double y, double tilt, double speed) {
   return fmt::format(R"(<body name="{}"><sheet pattern="triangles" cells="1 1" size="1 1"/>)"
-                     R"(<place rotate="90 {} 0" translate="-0.5 {} -0.5"/><mass total="1"/>)"
+                     R"(<place rotate="{} 0 0" translate="-0.5 {} -0.5"/><mass total="1"/>)"
                      R"(<springs><stretch k="100"/></springs><drive all="yes" velocity="0 {} 0"/>)"
                      R"(<contact with="obstacles fragments" thickness="0.001"/></body>)",
-                     name, turn, y, speed);
+                     name, 90 - tilt, y, speed);
 }
 
 TEST(CrossingGuard, stops_the_run_before_two_bodies_go_through_each_other_that_are_prescribed) {
