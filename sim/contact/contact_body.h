@@ -30,7 +30,7 @@ public:
   ContactBody(const MeshObstacle& mesh, std::size_t obstacle_, std::size_t number_, double thickness);
 
   // Called before the contacts of each step, from `time` - `step` to `time` [s].
-  void prepare(double time, double step = 1);
+  void prepare(double time, double step);
 
   Body* body = nullptr;                       // null: an obstacle
   std::unique_ptr<ObstacleVertices> obstacle; // null: a body

@@ -1,6 +1,6 @@
 // A contact of a step: a point and what it must not come closer to, along a normal. Whatever is detected
-// (obstacle_contact.h, fragment_contact.h) becomes one of these, and all of them are answered together
-// (contact_answer.h).
+// (obstacle_contact.h, fragment_contact.h, edge_contact.h, torn_sides.h) becomes one of these, and all of them
+// are answered together (contact_answer.h).
 #pragma once
 
 #include "sim/contact/contact_body.h"

@@ -225,7 +225,8 @@ void refuse_mesh_obstacles(const World& world, const std::vector<std::unique_ptr
                 "body '{}' meets an <obstacle>, and integrator '{}' solves contact with the floor, spheres "
                 "and boxes alone",
                 body->name, scheme),
-            "take an explicit integrator, such as symplectic, or name it in `not` of the body's <contact>");
+            "take an explicit integrator, such as symplectic, or give the obstacle a name and list it in `not` "
+            "of <contact>");
 }
 
 } // namespace rend

@@ -315,8 +315,7 @@ void ContactPairs::sort() {
   }
 }
 
-// For the edges of one and the triangles of the other: those that are nearer than the skin, or may be in this
-// step.
+// For the edges of one and the triangles of the other: those that are nearer than the skin.
 void ContactPairs::search_edges(const Neighbours& list, const Fragment& of, const Fragment& with) {
   const double reach = list.skin;
   each_near(
@@ -339,8 +338,7 @@ void ContactPairs::try_edge(const Neighbours& list, EdgeCandidate found) {
   const double slack =
       nearly_parallel * std::min((x[1] - x[0]).norm(), (y[1] - y[0]).norm() + (y[2] - y[0]).norm());
   found.apart = passes_through(x, y, 0) ? 0 : nearest(x, y).distance - slack;
-  const double moved = apart(list) + fragments_.moved(side) + fragments_.moved(triangle);
-  if (found.apart <= std::max(list.skin, moved)) edge_pool_.push_back(found);
+  if (found.apart <= list.skin) edge_pool_.push_back(found);
 }
 
 // What was not searched, or not far enough, before vertices were pushed.

@@ -35,7 +35,8 @@
 // s = 1/3, 1/2, 1 and q = 0.94, 0.89, 0.70.
 //
 // An edge and a face that were at a distance d at a search are at d − M at least, less what contact has pushed
-// their fragments by since M was measured: they may cross in a step where that is not positive.
+// their fragments by since M was measured: they may cross in a step where that is not positive. Those that were
+// farther apart than the skin do not: the two are searched again where M and what they are pushed by exceed it.
 #pragma once
 
 #include "sim/contact/contact_fragments.h"

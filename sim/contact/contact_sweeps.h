@@ -1,8 +1,8 @@
 // Projected Gauss–Seidel over the contacts of a step (contact_answer.h): what its sweeps read and write, and
 // nothing else, so that a visit costs a few cache lines.
 //
-// A row is a contact: it asks for λ_n ≥ 0 and u'·n ≥ wanted, with equality where λ_n > 0, and rubs with
-// |λ_t| ≤ μ λ_n. Its approach is
+// A row is a contact: it asks for λ_n ≥ 0 and u'·n ≥ wanted, with equality where λ_n > 0, and its friction
+// obeys |λ_t| ≤ μ λ_n. Its approach is
 //
 //   u' = surface + Σ weight · velocity        over its parts: movers with weights
 //
@@ -42,7 +42,7 @@ public:
     Vec3 friction = Vec3::Zero();             // [N·s], λ_t
     long visited = 0;                         // the last visit
     std::uint32_t parts = 0, parts_end = 0;   // in the array of parts
-    std::uint32_t pushed = 0, pushed_end = 0; // of these: the others' side is held
+    std::uint32_t pushed = 0, pushed_end = 0; // of these: those whose side is not held
     Vec3 impulse() const { return normal_impulse * normal + friction; } // [N·s]
   };
 

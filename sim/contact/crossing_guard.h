@@ -18,13 +18,15 @@
 //
 // Edges and faces that may cross are listed with those of contact_pairs.h. What crosses already is left alone:
 // a start that overlaps is refused or pushed out (start_overlap.h). Torn sides of one body are not looked
-// after: they lie on each other when they part, on no side of each other (torn_sides.h).
+// at here: they lie on each other when they part, on no side of each other (torn_sides.h).
 //
-// Two sides that are prescribed cross nevertheless: the run then stops before (Scene::resolve_contacts). Where
-// several of a zone are, as boxes that pinch a cloth, it follows one of them, and may go through the others.
+// Two sides that are prescribed cross nevertheless: the run then stops before (Scene::stop_crossing). Where
+// several things in a zone are prescribed, as boxes that pinch a cloth, the zone follows one of them, and may
+// go through the others.
 //
 // What passes in one step would cross neither at its start nor at its end, if it is thinner than its way; it is
-// stopped before that, along straight paths (fragment_contact.h). The floor is not looked at again.
+// stopped before that, along straight paths (fragment_contact.h), but for two that are both prescribed. The
+// floor is not looked at again.
 #pragma once
 
 #include "sim/contact/contact_answer.h"

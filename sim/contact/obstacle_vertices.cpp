@@ -27,9 +27,10 @@ void ObstacleVertices::move(double time, double step) {
 
 bool ObstacleVertices::lies_behind(const Vec3& x, double depth) const {
   constexpr double rounding = 1e-9;
-  if (!inside_ || depth <= rounding * mesh_.bounds.diagonal().norm()) return true;
+  const double least = rounding * mesh_.bounds.diagonal().norm();
+  if (!inside_ || depth <= least) return true;
   const Vec3 X = way_.from.back(x);
-  return inside_->tree.inside(X) && depth <= (1 + rounding) * inside_->tree.nearest(X).distance;
+  return inside_->tree.inside(X) && depth <= (1 + rounding) * inside_->tree.nearest(X).distance + least;
 }
 
 std::size_t ObstacleVertices::bytes() const {

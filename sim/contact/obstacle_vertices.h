@@ -2,7 +2,7 @@
 //
 // A vertex goes from x = X(t) to x' = X(t + h) along a straight line, with the velocity (x' − x)/h of
 // RigidStep: what lies on the obstacle is carried on average over the step. One that never moves is placed
-// once, and costs nothing from then on.
+// once, and never measured again.
 #pragma once
 
 #include "sim/contact/standing_mesh.h"

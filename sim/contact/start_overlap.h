@@ -2,19 +2,19 @@
 // <contact overlap="push"> asks for it.
 //
 // Contact keeps out what comes in. What starts inside has no side from which it came, and what pushes it out
-// works on it, and throws it into the air. So a body
-// may touch, but not lie deeper than 1e-9 of its size in the floor, a sphere, a box, or another body that it
-// is in contact with. The distances that contact keeps do not count: what starts nearer stays as near.
+// works on it, and throws it into the air. So a body may touch, but not lie deeper than 1e-9 of its size in the
+// floor, a sphere, a box, a mesh, or another body that it is in contact with. The distances that contact keeps
+// do not count: what starts nearer stays as near.
 //
 // A depth is that of the deepest point that is found:
 //
 //   floor, sphere, box   of the vertices, and of the nearest or deepest point of each face
-//   a solid              of the vertices in it, and of the middle of each part of an edge that lies in it: its
+//   a solid, closed mesh of the vertices in it, and of the middle of each part of an edge that lies in it: its
 //                        distance from the surface
-//   a sheet              of the edges that go through it: what sticks out on the shorter side
+//   a sheet, open mesh   of the edges that go through it: what sticks out on the shorter side
 //
-// Not tested: vertices that are prescribed in all directions, which pass through everything, and fragments
-// of one body against each other.
+// Not tested: vertices that are prescribed in all directions, which give way to nothing, and fragments of one
+// body against each other.
 //
 // With "push", a body is translated as a whole, rest positions as well, until it keeps its distance: along the
 // way out of its deepest point, again for what is then deepest. Two bodies share the way by their masses, so

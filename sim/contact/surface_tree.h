@@ -1,6 +1,6 @@
 // The faces of a body in a tree of bounding boxes, where they are now: the nearest point of them, whether a
-// point lies inside a solid, and where a segment goes through them. For what is asked once, before the first
-// step; contact_pairs.h holds the trees of contact.
+// point lies inside a solid, and where a segment goes through them. For faces that stay as they are: at the
+// start, and of mesh obstacles; contact_pairs.h holds the trees of contact.
 //
 // A point lies inside if a ray from it meets the faces an odd number of times. Its direction is along no axis
 // and in no plane of symmetry, so that it meets no edge of meshes that lie along the axes.

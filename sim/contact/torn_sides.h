@@ -11,8 +11,8 @@
 //
 // is not to become negative, for each corner of which there are two by now. All faces around a corner ask for
 // this at once: what fits into a notch leaves it only where all its walls let it. A gap that has opened is kept
-// up to the thickness, so that when the crack is through, its sides do not coincide any more. Nothing is
-// pushed, and parting is free.
+// up to the thickness, so that when the crack is through, its sides do not coincide any more. What overlaps
+// is answered as any penetration (contact_answer.h), and parting is free.
 //
 // It is asked for where x and x' are still opposite each other: within half a face along it, and no deeper than
 // that, with m·m' < 0. What has slid farther or come loose is for fragment_contact.h. Looked at anew in each
@@ -25,7 +25,8 @@
 // crossings as before, for 5 times the time.)
 //
 // Limits: a sheet's sides have no normal to tell them apart, and meet along a line only. Faces that have an
-// edge or a vertex in common at rest, but were not one, are not opposite each other.
+// edge or a vertex in common at rest, but were not one, are not opposite each other; nor is what a later cut
+// has divided on one side alone.
 #pragma once
 
 #include "sim/contact/contact_answer.h"

@@ -189,8 +189,9 @@ StepFailure Scene::integrate(double time, double step) {
 // All bodies are checked before one of them is committed.
 StepFailure Scene::resolve_contacts(double time, double step) {
   apply_contacts(time, step);
+  if (!finite()) return StepFailure::NotFinite;
   if (const auto through = contacts_ ? contacts_->crossing() : std::nullopt) stop_crossing(*through);
-  return finite() ? StepFailure::None : StepFailure::NotFinite;
+  return StepFailure::None;
 }
 
 void Scene::apply_contacts(double time, double step) {
@@ -359,18 +360,18 @@ void Scene::check_account() const {
                                   : "take a smaller step, another integrator, or add viscosity");
 }
 
-// No such state is committed.
+// The state in which they cross is not committed.
 void Scene::stop_crossing(const ThroughEachOther& through) const {
   std::string with = "itself";
   if (through.obstacle)
     with = world_.called(*through.obstacle);
   else if (through.other != through.body)
     with = fmt::format("body '{}'", through.other->name);
-  stop(*through.body,
-       fmt::format(
-           "it would go through {} there, and neither gives way: both are held, driven or moved as prescribed",
-           with),
-       "keep them apart, or do not ask for contact between them");
+  throw Unstable(Exit::Unstable, step_place_,
+                 fmt::format("the simulation was stopped at {:.6g} s (step {} of {:.3g} s): body '{}' would go "
+                             "through {}, and both are held, driven or moved as prescribed",
+                             time(), steps_done_, step_, through.body->name, with),
+                 "keep them apart, or do not ask for contact between them");
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {

@@ -36,7 +36,7 @@ public:
     Body& body = scene_.body();
     scene_->step();
     body.next.resize(body.vertices());
-    body_.prepare(0);
+    body_.prepare(0, 1);
     sphere_ = scene_->world().spheres[0];
     for (Slot v = 0; v < body.vertices(); ++v) {
       body.map->velocity().values()[v] = Record(free(v, draw_.vector(1)));
