@@ -12,6 +12,10 @@ constexpr double least_depth = 1e-10;     // relative to the lengths of both: wh
 constexpr double touching_already = 1e-9; // relative to those: no direction is known
 constexpr double kept_distance = 0.5;     // of that at the start of the step
 
+const std::array<Slot, 3>& corners_of(const ContactBody& body, std::uint32_t triangle) {
+  return body.faces->triangles()[triangle].vertex;
+}
+
 // A pair at the start of the step and at its end.
 struct Course {
   Segment x0, x1;
@@ -19,7 +23,7 @@ struct Course {
   double size; // [m]
   Course(const ContactBodies& bodies, const EdgeFacePair& pair) {
     const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.face_body];
-    const auto& corner = other.faces->triangles()[pair.triangle].vertex;
+    const auto& corner = corners_of(other, pair.triangle);
     for (std::size_t k = 0; k < 2; ++k) {
       x0[k] = body.from(pair.edge[k]);
       x1[k] = body.position(pair.edge[k]);
@@ -99,12 +103,9 @@ std::optional<ThroughEachOther> CrossingGuard::prescribed(const ContactBodies& b
   const auto prescribed = [](const ContactBody& body, std::span<const Slot> vertices) {
     return std::ranges::all_of(vertices, [&](Slot v) { return body.inverse_mass(v).isZero(0); });
   };
-  const auto corners = [&](std::uint32_t body, std::uint32_t triangle) {
-    return std::span(bodies[body]->faces->triangles()[triangle].vertex);
-  };
   for (const EdgeFacePair& pair : crossing_) {
     if (!prescribed(*bodies[pair.body], pair.edge) || !Course(bodies, pair).surely_through() ||
-        !prescribed(*bodies[pair.face_body], corners(pair.face_body, pair.triangle)))
+        !prescribed(*bodies[pair.face_body], corners_of(*bodies[pair.face_body], pair.triangle)))
       continue;
     const ContactBody &a = *bodies[pair.body], &b = *bodies[pair.face_body];
     if (!a.body) return ThroughEachOther{b.body, nullptr, a.obstacle->number};
@@ -112,7 +113,7 @@ std::optional<ThroughEachOther> CrossingGuard::prescribed(const ContactBodies& b
     return ThroughEachOther{a.body, b.body};
   }
   for (const BoxCrossing& each : in_boxes_)
-    if (each.surely && prescribed(*bodies[each.body], corners(each.body, each.triangle)))
+    if (each.surely && prescribed(*bodies[each.body], corners_of(*bodies[each.body], each.triangle)))
       return ThroughEachOther{bodies[each.body]->body, nullptr, obstacles.number_of(each)};
   return {};
 }
@@ -165,7 +166,7 @@ std::vector<ContactConstraint> CrossingGuard::constraints(const Step& of) const 
     if (!way) continue;
     const auto& [p, q] = pair.edge;
     const ContactPoint a{&body, {p, q, q}, {1 - way->share, way->share, 0}},
-        b{&other, other.faces->triangles()[pair.triangle].vertex, way->weight};
+        b{&other, corners_of(other, pair.triangle), way->weight};
     wanted.push_back(contact_between(a, b, way->normal, way->apart));
     wanted.back().restitution = 0;
   }
@@ -181,7 +182,7 @@ bool CrossingGuard::unite(const Step& of) {
     return ZonePart{body, of.bodies[body]->body ? vertex : 0};
   };
   const auto corners = [&](std::uint32_t body, std::uint32_t triangle) {
-    const auto& corner = of.bodies[body]->faces->triangles()[triangle].vertex;
+    const auto& corner = corners_of(*of.bodies[body], triangle);
     return std::array<ZonePart, 3>{{part(body, corner[0]), part(body, corner[1]), part(body, corner[2])}};
   };
   for (const EdgeFacePair& pair : crossing_) {
