@@ -51,7 +51,7 @@ def column(driver, name):
 
 def name_of(row):  # a job that failed has no link
     at, _ = column(row.parent, "job")
-    return row.find_elements(By.TAG_NAME, "td")[at].text
+    return row.find_elements(By.TAG_NAME, "td")[at].text.split("\n")[0]
 
 
 def states_and_pictures(driver, jobs):
