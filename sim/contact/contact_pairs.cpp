@@ -10,7 +10,6 @@
 namespace rend {
 namespace {
 
-constexpr double nearly_parallel = 1e-3; // the sine of the angle (edge_face.cpp)
 constexpr double beside = ContactFragments::beside, deepest = ContactFragments::deepest;
 
 // By how much both may move until the vertex may be as deep behind the face of a solid as it is still seen: the
@@ -25,6 +24,19 @@ double clear_of_depth(const Vec3& off, const TriangleCorners& y) {
   const double height = area.norm() / longest;
   return std::max({by_size, std::min(0.94 * distance, height / 8), std::min(0.89 * distance, height / 6),
                    std::min(0.70 * distance, height / 4)});
+}
+
+// Whether they are surely farther apart than `reach` [m]: across the plane of the triangle, or beyond a side.
+bool apart_by_planes(const Segment& x, const TriangleCorners& y, double reach) {
+  const Vec3 across = (y[1] - y[0]).cross(y[2] - y[0]);
+  const auto beyond = [&](const Vec3& corner, const Vec3& normal) { // on the positive side
+    const double nearer = std::min(normal.dot(x[0] - corner), normal.dot(x[1] - corner));
+    return nearer > 0 && nearer * nearer > reach * reach * normal.squaredNorm();
+  };
+  if (beyond(y[0], across) || beyond(y[0], -across)) return true;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (beyond(y[k], (y[(k + 1) % 3] - y[k]).cross(across))) return true;
+  return false;
 }
 
 // [m], distance of a vertex from a triangle of the same body at rest.
@@ -130,7 +142,8 @@ void ContactPairs::note_near(const Bodies& bodies) {
     const double faces = (a.triangles_end - a.triangles) + (b.triangles_end - b.triangles);
     // of solids half as much, for which depths are looked for as well
     const double share = bodies[a.body]->solid() || bodies[b.body]->solid() ? 0.125 : 0.25;
-    list.skin = std::max(2 * thickness(*bodies[a.body], *bodies[b.body]), share * (a.edges + b.edges) / faces);
+    list.skin = list.margin.next(
+        std::max(2 * thickness(*bodies[a.body], *bodies[b.body]), share * (a.edges + b.edges) / faces));
     for (const std::uint32_t f : {list.a, list.b})
       if (all[f].moved_at_end > list.skin / 16) renewal_[f] = Renewal::Due;
   }
@@ -191,6 +204,7 @@ void ContactPairs::search(const Bodies& bodies, Neighbours& list) {
   drop(list);
   const Fragment &a = fragments_.all()[list.a], &b = fragments_.all()[list.b];
   list.searched = true;
+  list.reach = list.skin;
   list.before = a.moved_at_end + b.moved_at_end;
   list.between = a.end - b.end;
   list.begin = pool_.size();
@@ -210,8 +224,8 @@ void ContactPairs::search(const Bodies& bodies, Neighbours& list) {
 // Calls look(item, triangle) for items from `begin` to `end` of one fragment and triangles of the other whose
 // boxes meet: around(item), and wide(box of the triangle).
 template <class Wide, class Around, class Look>
-void ContactPairs::each_near(const Fragment& of, const Fragment& with, std::uint32_t begin, std::uint32_t end,
-                             const Wide& wide, const Around& around, const Look& look) {
+void ContactPairs::each_near(Neighbours& list, const Fragment& of, const Fragment& with, std::uint32_t begin,
+                             std::uint32_t end, const Wide& wide, const Around& around, const Look& look) {
   near_.clear();
   boxes_.clear();
   Box all;
@@ -225,21 +239,24 @@ void ContactPairs::each_near(const Fragment& of, const Fragment& with, std::uint
   if (near_.empty()) return;
   const bool many = near_.size() > 24; // so that a tree is quicker
   const BoxTree tree(many ? boxes_ : std::vector<Box>{});
+  std::size_t looks = near_.size();
   for (std::uint32_t item = begin; item < end; ++item) {
     const Box box = around(item);
     if (!all.intersects(box)) continue;
+    ++looks;
+    const auto look_at = [&](std::uint32_t n) { look(item, near_[n]), ++looks; };
     if (many) {
-      tree.each_in(box, [&](std::uint32_t n) { look(item, near_[n]); });
+      tree.each_in(box, look_at);
       continue;
     }
     for (std::uint32_t n = 0; n < near_.size(); ++n)
-      if (boxes_[n].intersects(box)) look(item, near_[n]);
+      if (boxes_[n].intersects(box)) look_at(n);
   }
+  list.margin.searched(looks);
 }
 
 // For the vertices of one and the triangles of the other.
-void ContactPairs::search(const Bodies& bodies, const Neighbours& list, const Fragment& of,
-                          const Fragment& with) {
+void ContactPairs::search(const Bodies& bodies, Neighbours& list, const Fragment& of, const Fragment& with) {
   const double reach = list.skin + beside * thickness(*bodies[of.body], *bodies[with.body]);
   const bool solid = bodies[with.body]->solid();
   const auto wide = [&](const Box& box) {
@@ -247,7 +264,7 @@ void ContactPairs::search(const Bodies& bodies, const Neighbours& list, const Fr
     return grown(box, solid ? std::max(reach, depth) : reach);
   };
   each_near(
-      of, with, of.vertices, of.vertices_end, wide, [&](std::uint32_t v) { return fragments_.around(v); },
+      list, of, with, of.vertices, of.vertices_end, wide, [&](std::uint32_t v) { return fragments_.around(v); },
       [&](std::uint32_t v, std::uint32_t t) {
         try_one(*bodies[of.body], *bodies[with.body], list, {v, t});
       });
@@ -280,8 +297,9 @@ void ContactPairs::try_one(const ContactBody& body, const ContactBody& other, co
 void ContactPairs::gather() {
   found_.clear();
   const auto& all = fragments_.all();
-  for (const Neighbours& list : neighbours_) {
+  for (Neighbours& list : neighbours_) {
     if (!list.searched || list.begin == list.end || list.least > moved(list)) continue;
+    list.margin.passed(list.end - list.begin);
     const double moved_apart = apart(list);
     const Fragment &a = all[list.a], &b = all[list.b];
     for (std::size_t n = list.begin; n < list.end; ++n) {
@@ -316,10 +334,10 @@ void ContactPairs::sort() {
 }
 
 // For the edges of one and the triangles of the other: those that are nearer than the skin.
-void ContactPairs::search_edges(const Neighbours& list, const Fragment& of, const Fragment& with) {
+void ContactPairs::search_edges(Neighbours& list, const Fragment& of, const Fragment& with) {
   const double reach = list.skin;
   each_near(
-      of, with, of.sides, of.sides_end, [&](const Box& box) { return grown(box, reach); },
+      list, of, with, of.sides, of.sides_end, [&](const Box& box) { return grown(box, reach); },
       [&](std::uint32_t s) { return fragments_.around(fragments_.side(s)); },
       [&](std::uint32_t s, std::uint32_t t) {
         try_edge(list, {s, t});
@@ -334,6 +352,7 @@ void ContactPairs::try_edge(const Neighbours& list, EdgeCandidate found) {
     if (std::find(corner.begin(), corner.end(), end) != corner.end()) return;
   const Segment x{fragments_.at(side[0]), fragments_.at(side[1])};
   const TriangleCorners y{fragments_.at(corner[0]), fragments_.at(corner[1]), fragments_.at(corner[2])};
+  if (apart_by_planes(x, y, list.skin)) return;
   // nearest() is above the distance of edges that are nearly parallel, by this share of them at most.
   const double slack =
       nearly_parallel * std::min((x[1] - x[0]).norm(), (y[1] - y[0]).norm() + (y[2] - y[0]).norm());
@@ -356,7 +375,7 @@ void ContactPairs::search_further(const Bodies& bodies, const std::vector<double
   search_due(bodies);
   for (Neighbours& list : neighbours_) {
     const double most = moved(list) + pushed[list.a] + pushed[list.b];
-    if (!list.searched || most <= list.skin) continue;
+    if (!list.searched || most <= list.reach) continue;
     const double skin = std::exchange(list.skin, most);
     search(bodies, list);
     list.skin = skin;
@@ -369,8 +388,9 @@ const std::vector<EdgeFacePair>& ContactPairs::crossing(const Bodies& bodies,
   if (!fragments_.anything(bodies)) return crossing_;
   search_further(bodies, pushed);
   const auto& all = fragments_.all();
-  for (const Neighbours& list : neighbours_) {
+  for (Neighbours& list : neighbours_) {
     if (list.edges == list.edges_end) continue;
+    list.margin.passed(list.edges_end - list.edges);
     const double by = apart(list) + pushed[list.a] + pushed[list.b];
     const Fragment &a = all[list.a], &b = all[list.b];
     for (std::size_t n = list.edges; n < list.edges_end; ++n) {

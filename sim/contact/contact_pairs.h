@@ -40,6 +40,7 @@
 #pragma once
 
 #include "sim/contact/contact_fragments.h"
+#include "sim/contact/search_margin.h"
 
 namespace rend {
 
@@ -110,10 +111,12 @@ private:
     bool searched = false;                // and near ever since
     std::size_t begin = 0, end = 0;       // of their candidates in the pool
     std::size_t edges = 0, edges_end = 0; // in the pool of edges
-    double skin = 0;                      // [m]
-    double least = 0;                     // [m]: `clear` of a candidate
-    double before = 0;                    // [m], part of M: before their renewals
-    Vec3 between = Vec3::Zero();          // [m]: of their means at the search
+    SearchMargin margin = {};
+    double skin = 0;             // [m]: searched again when M exceeds it
+    double reach = 0;            // [m]: how far it was searched; at least the skin
+    double least = 0;            // [m]: `clear` of a candidate
+    double before = 0;           // [m], part of M: before their renewals
+    Vec3 between = Vec3::Zero(); // [m]: of their means at the search
   };
 
   // of the neighbours
@@ -129,15 +132,15 @@ private:
   double apart(const Neighbours& list) const; // [m]: M but for the moves of vertex and corners
   double moved(const Neighbours& list) const; // [m]: M, at most
   template <class Wide, class Around, class Look>
-  void each_near(const Fragment& of, const Fragment& with, std::uint32_t begin, std::uint32_t end,
-                 const Wide& wide, const Around& around, const Look& look);
+  void each_near(Neighbours& list, const Fragment& of, const Fragment& with, std::uint32_t begin,
+                 std::uint32_t end, const Wide& wide, const Around& around, const Look& look);
   void search(const Bodies& bodies, Neighbours& list);
-  void search(const Bodies& bodies, const Neighbours& list, const Fragment& of, const Fragment& with);
+  void search(const Bodies& bodies, Neighbours& list, const Fragment& of, const Fragment& with);
   void try_one(const ContactBody& body, const ContactBody& other, const Neighbours& list, Candidate found);
   void gather();
   void sort();
   // of edges
-  void search_edges(const Neighbours& list, const Fragment& of, const Fragment& with);
+  void search_edges(Neighbours& list, const Fragment& of, const Fragment& with);
   void try_edge(const Neighbours& list, EdgeCandidate found);
   void search_further(const Bodies& bodies, const std::vector<double>& pushed);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -20,7 +21,7 @@ Segment segment_between(const Segment& a, const Segment& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
 }
 
-// At rest, where segments may be parallel: the least distance of an end from the other segment then.
+// At rest, where segments may be parallel: the least distance of an end from the other one then.
 double segment_distance(const Segment& p, const Segment& q) {
   if (const auto shares = nearest_within(p, q))
     return (point_at(p, (*shares)[0]) - point_at(q, (*shares)[1])).norm();
@@ -32,10 +33,28 @@ double segment_distance(const Segment& p, const Segment& q) {
   return std::min({from(p[0], q), from(p[1], q), from(q[0], p), from(q[1], p)});
 }
 
+// What the distance of two segments is at least (Ericson, Real-Time Collision Detection, 5.1.9): of nearly
+// parallel ones, whose nearest points may be elsewhere, less by the share of a length that this may make.
+double least_distance(const Segment& p, const Segment& q) {
+  const Vec3 u = p[1] - p[0], v = q[1] - q[0], r = p[0] - q[0];
+  constexpr double none = std::numeric_limits<double>::min();
+  const double a = std::max(u.squaredNorm(), none), b = u.dot(v), c = std::max(v.squaredNorm(), none),
+               d = u.dot(r), e = v.dot(r);
+  const double across = std::max(a * c - b * b, none);
+  double s = std::clamp((b * e - c * d) / across, 0.0, 1.0);
+  const double t = std::clamp((b * s + e) / c, 0.0, 1.0);
+  s = std::clamp((b * t - d) / a, 0.0, 1.0);
+  return (r + s * u - t * v).norm() - nearly_parallel * std::sqrt(std::min(a, c));
+}
+
 BoxTree::Box span_of(const ContactBody& body, const std::array<Slot, 2>& end) {
   BoxTree::Box box;
-  for (const Slot v : end) box.extend(body.from(v)).extend(body.position(v).vec());
+  for (const Slot v : end) box.extend(body.position(v).vec());
   return box;
+}
+
+Segment segment_of(const ContactBody& body, const std::array<Slot, 2>& end) {
+  return {body.position(end[0]).vec(), body.position(end[1]).vec()};
 }
 
 } // namespace
@@ -117,7 +136,7 @@ private:
   std::map<std::array<Slot, 2>, Found> found_;
 };
 
-void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const {
+void EdgeContact::list(const ContactBody& body, Listed& of) {
   Finder finder;
   if (body.body) {
     const EmbeddedMap& map = *body.body->map;
@@ -132,74 +151,112 @@ void EdgeContact::list(const ContactBody& body, std::vector<Edge>& edges) const 
       finder.add(triangle.vertex, (x(1) - x(0)).cross(x(2) - x(0)).normalized(), 0);
     }
   }
-  finder.list(body.solid(), edges);
+  finder.list(body.solid(), of.edges);
+  of.ends.clear();
+  for (const Edge& edge : of.edges) of.ends.insert(of.ends.end(), edge.end.begin(), edge.end.end());
+  std::sort(of.ends.begin(), of.ends.end());
+  of.ends.erase(std::unique(of.ends.begin(), of.ends.end()), of.ends.end());
+  of.there.resize(of.ends.size());
+  of.moved.resize(of.edges.size());
 }
 
-bool EdgeContact::has_moved(const ContactPairs::Bodies& bodies) const {
-  Vec3 mean = Vec3::Zero();
-  std::size_t count = 0, fixed = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b]->fixed()) fixed += there_[b].size();
-  const auto each = [&](const auto& f) {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (std::size_t n = 0; n < there_[b].size() && !bodies[b]->fixed(); ++n) {
-        const Slot v = edges_[b][n / 2].end[n % 2];
-        f(Vec3(bodies[b]->position(v).vec() - there_[b][n]));
-      }
-  };
-  each([&](const Vec3& moved) { mean += moved, ++count; });
-  if (count > 0) mean /= static_cast<double>(count + fixed);
-  double most = fixed > 0 ? mean.squaredNorm() : 0; // what never moves
-  each([&](const Vec3& moved) { most = std::max(most, (moved - mean).squaredNorm()); });
-  return most > 0.25 * skin_ * skin_;
+// How far edges have moved since the last search.
+void EdgeContact::measure(const ContactPairs::Bodies& bodies) {
+  Move mean;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    count += of_[b].ends.size();
+    for (std::size_t n = 0; n < of_[b].ends.size() && !bodies[b]->fixed(); ++n) {
+      mean.start += bodies[b]->from(of_[b].ends[n]) - of_[b].there[n];
+      mean.end += bodies[b]->position(of_[b].ends[n]).vec() - of_[b].there[n];
+    }
+  }
+  moved_ = 0;
+  if (count == 0) return;
+  mean.start /= static_cast<double>(count);
+  mean.end /= static_cast<double>(count);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    Listed& of = of_[b];
+    if (of.edges.empty()) continue;
+    measure_moves(*bodies[b], mean, of);
+    for (std::size_t n = 0; n < of.edges.size(); ++n) {
+      of.moved[n] = std::max(of.moves[of.edges[n].end[0]], of.moves[of.edges[n].end[1]]);
+      moved_ = std::max(moved_, of.moved[n]);
+    }
+  }
+}
+
+void EdgeContact::measure_moves(const ContactBody& body, const Move& mean, Listed& of) {
+  of.moves.resize(body.vertices());
+  for (std::size_t n = 0; n < of.ends.size(); ++n) {
+    const Slot v = of.ends[n];
+    const bool fixed = body.fixed();
+    const Vec3 start = (fixed ? Vec3(Vec3::Zero()) : Vec3(body.from(v) - of.there[n])) - mean.start,
+               end = (fixed ? Vec3(Vec3::Zero()) : Vec3(body.position(v).vec() - of.there[n])) - mean.end;
+    of.moves[v] = std::sqrt(std::max(start.squaredNorm(), end.squaredNorm()));
+  }
+}
+
+double EdgeContact::widest_margin(const ContactPairs::Bodies& bodies) const {
+  double thickness = 0, lengths = 0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    thickness = std::max(thickness, bodies[b]->settings().thickness);
+    for (const Edge& edge : of_[b].edges)
+      lengths += (bodies[b]->position(edge.end[0]).vec() - bodies[b]->position(edge.end[1]).vec()).norm();
+    count += of_[b].edges.size();
+  }
+  return count > 0 ? std::max(2 * thickness, 0.25 * lengths / static_cast<double>(count)) : 0;
 }
 
 void EdgeContact::search(const ContactPairs::Bodies& bodies) {
   ++searches_;
   searched_ = true;
   pairs_.clear();
-  double thickness = 0, lengths = 0;
-  std::size_t count = 0;
+  skin_ = margin_.next(widest_margin(bodies));
+  double thickness = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    there_[b].clear();
-    thickness = std::max(thickness, bodies[b]->settings().thickness);
-    for (const Edge& edge : edges_[b]) {
-      for (const Slot v : edge.end) there_[b].push_back(bodies[b]->position(v));
-      lengths += (there_[b].back() - there_[b][there_[b].size() - 2]).norm();
-      ++count;
-    }
+    for (std::size_t n = 0; n < of_[b].ends.size(); ++n) of_[b].there[n] = bodies[b]->position(of_[b].ends[n]);
+    if (!of_[b].edges.empty()) thickness = std::max(thickness, bodies[b]->settings().thickness);
   }
-  if (count == 0) return;
-  skin_ = std::max(2 * thickness, 0.25 * lengths / static_cast<double>(count));
-  const double reach = skin_ + thickness;
+  measure(bodies); // of this step alone
+  const double reach = std::max(skin_, 2 * moved_) + ContactFragments::beside * thickness;
   std::vector<std::vector<BoxTree::Box>> boxes(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (const Edge& edge : edges_[b]) boxes[b].push_back(grown(span_of(*bodies[b], edge.end), reach));
+    for (const Edge& edge : of_[b].edges) boxes[b].push_back(grown(span_of(*bodies[b], edge.end), reach));
   const Trees trees(boxes);
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) add_pairs(bodies, b, trees, reach);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) add_pairs(bodies, b, trees);
 }
 
 // Each pair once: the smaller body and edge first.
-void EdgeContact::add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t body, const Trees& trees,
-                            double reach) {
+void EdgeContact::add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t body, const Trees& trees) {
   const ContactBody& own = *bodies[body];
   const auto passes = [&](std::uint32_t other) {
     return other < body || !looked_for(own, *bodies[other], with_);
   };
-  for (std::uint32_t n = 0; n < edges_[body].size(); ++n) {
-    const BoxTree::Box box = span_of(own, edges_[body][n].end);
+  std::size_t looks = 0;
+  for (std::uint32_t n = 0; n < of_[body].edges.size(); ++n) {
+    const Edge& edge = of_[body].edges[n];
+    const Segment ends = segment_of(own, edge.end);
     const std::size_t begin = pairs_.size();
-    trees.each_near(box, passes, [&](std::uint32_t other_body, std::uint32_t other) {
-      const Pair pair{body, n, other_body, other};
-      if (other_body == body && (other <= n || joined(own, edges_[body][n], edges_[body][other]))) return;
-      const BoxTree::Box there = span_of(*bodies[other_body], edges_[other_body][other].end);
-      if (box.squaredExteriorDistance(there) <= reach * reach) pairs_.push_back(pair);
+    ++looks;
+    trees.each_near(span_of(own, edge.end), passes, [&](std::uint32_t other_body, std::uint32_t other) {
+      if (other_body == body && other <= n) return;
+      ++looks;
+      const Edge& there = of_[other_body].edges[other];
+      const ContactBody& with = *bodies[other_body];
+      const double touching = ContactFragments::beside * ContactPairs::thickness(own, with);
+      const double clear = least_distance(ends, segment_of(with, there.end)) - touching;
+      if (clear > std::max(skin_, of_[body].moved[n] + of_[other_body].moved[other])) return;
+      if (other_body == body && joined(own, edge, there)) return;
+      pairs_.push_back({body, n, other_body, other, clear});
     });
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
               [](const Pair& a, const Pair& b) {
                 return std::tie(a.other_body, a.other_edge) < std::tie(b.other_body, b.other_edge);
               });
   }
+  margin_.searched(looks);
 }
 
 // Whether the material connects two edges of a body, or has torn between them.
@@ -226,7 +283,7 @@ struct EdgeFacing {
 std::optional<ContactConstraint> EdgeContact::touch(const ContactPairs::Bodies& bodies,
                                                     const Pair& pair) const {
   const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.other_body];
-  const Edge &a = edges_[pair.body][pair.edge], &b = edges_[pair.other_body][pair.other_edge];
+  const Edge &a = of_[pair.body].edges[pair.edge], &b = of_[pair.other_body].edges[pair.other_edge];
   const double thickness = ContactPairs::thickness(body, other);
   const bool solid = body.solid() && other.solid();
   const Segment p0{body.from(a.end[0]), body.from(a.end[1])}, q0{other.from(b.end[0]), other.from(b.end[1])};
@@ -268,25 +325,29 @@ std::optional<ContactConstraint> EdgeContact::touch(const ContactPairs::Bodies& 
 }
 
 void EdgeContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
-  bool changed = edges_.size() != bodies.size();
-  edges_.resize(bodies.size());
-  there_.resize(bodies.size());
+  bool changed = of_.size() != bodies.size();
+  of_.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const ContactBody& body = *bodies[b];
     const bool wanted = with_ == With::Bodies ? body.settings().fragments : !body.body || body.meets_obstacles;
     if (!wanted || (searched_ && !body.changed)) continue;
-    list(*bodies[b], edges_[b]);
+    list(*bodies[b], of_[b]);
     changed = true;
   }
-  if (changed || has_moved(bodies)) search(bodies);
-  for (const Pair& pair : pairs_)
+  if (!changed) measure(bodies);
+  if (changed || 2 * moved_ > skin_) search(bodies);
+  margin_.passed(pairs_.size());
+  for (const Pair& pair : pairs_) {
+    if (pair.clear > of_[pair.body].moved[pair.edge] + of_[pair.other_body].moved[pair.other_edge]) continue;
     if (const auto found = touch(bodies, pair)) answer.add(*found);
+  }
 }
 
 std::size_t EdgeContact::bytes() const {
   std::size_t sum = bytes_of(pairs_);
-  for (const auto& edges : edges_) sum += bytes_of(edges);
-  for (const auto& there : there_) sum += bytes_of(there);
+  for (const Listed& of : of_)
+    sum +=
+        bytes_of(of.edges) + bytes_of(of.ends) + bytes_of(of.there) + bytes_of(of.moves) + bytes_of(of.moved);
   return sum;
 }
 

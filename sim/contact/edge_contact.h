@@ -16,12 +16,15 @@
 //
 // The edges of a sheet are those of its faces; of a solid those of its boundary at which it is not flat at
 // rest, since a flat face is kept out by its vertices. Pairs are found through trees of the edges of each body,
-// with a margin, and anew when an edge has moved by half of it relative to the mean of all: they include all
-// that touch, so results do not depend on when.
+// with a margin (search_margin.h), and anew when an edge has moved by half of it relative to the mean of all:
+// they include all that touch, so results do not depend on when. Two edges that were at a distance d at the
+// search, and whose ends have since then moved by m and m' at most relative to that mean, are at d − m − m' at
+// least, and are passed over while that is more than they touch from, 1.5 thicknesses.
 #pragma once
 
 #include "sim/contact/contact_answer.h"
 #include "sim/contact/contact_pairs.h"
+#include "sim/contact/search_margin.h"
 
 #include <array>
 #include <optional>
@@ -56,23 +59,37 @@ private:
   struct Pair {
     std::uint32_t body = 0, edge = 0; // index into edges_ of the body
     std::uint32_t other_body = 0, other_edge = 0;
+    double clear = 0; // [m]: the two do not touch while they have moved by less than this together
+  };
+  struct Listed {              // of one body; without contact of fragments empty
+    std::vector<Edge> edges;   // sorted by their ends
+    std::vector<Slot> ends;    // increasing
+    std::vector<Vec3> there;   // [m], one per entry of `ends`, at the last search
+    std::vector<double> moves; // [m], one per vertex slot; relative to the mean, at the start and end of a step
+    std::vector<double> moved; // [m], one per edge: of its ends
+  };
+  struct Move { // [m], from the last search to the start of a step and to its end
+    Vec3 start = Vec3::Zero(), end = Vec3::Zero();
   };
   class Trees;
   class Finder;
 
   static bool looked_for(const ContactBody& a, const ContactBody& b, With with);
-  void list(const ContactBody& body, std::vector<Edge>& edges) const;
-  bool has_moved(const ContactPairs::Bodies& bodies) const;
+  static void list(const ContactBody& body, Listed& of);
+  void measure(const ContactPairs::Bodies& bodies);
+  static void measure_moves(const ContactBody& body, const Move& mean, Listed& of);
+  double widest_margin(const ContactPairs::Bodies& bodies) const; // [m]
   void search(const ContactPairs::Bodies& bodies);
-  void add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t body, const Trees& trees, double reach);
+  void add_pairs(const ContactPairs::Bodies& bodies, std::uint32_t body, const Trees& trees);
   static bool joined(const ContactBody& body, const Edge& a, const Edge& b);
   std::optional<ContactConstraint> touch(const ContactPairs::Bodies& bodies, const Pair& pair) const;
 
   With with_;
-  std::vector<std::vector<Edge>> edges_; // one list per body; of one without contact of fragments empty
-  std::vector<std::vector<Vec3>> there_; // [m], both ends of each edge at the last search
-  std::vector<Pair> pairs_;              // of the last search, sorted
-  double skin_ = 0;                      // [m]
+  std::vector<Listed> of_;  // one per body
+  std::vector<Pair> pairs_; // of the last search, sorted
+  SearchMargin margin_;
+  double skin_ = 0;  // [m]
+  double moved_ = 0; // [m]: of an edge, at most, at the start of this step and at its end
   bool searched_ = false;
   long searches_ = 0;
 };

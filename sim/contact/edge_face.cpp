@@ -7,7 +7,7 @@
 namespace rend {
 namespace {
 
-constexpr double parallel_edges = 1e-6; // the square of the sine between edges below which they are
+constexpr double parallel_edges = 1e-6; // the square of nearly_parallel
 
 } // namespace
 

@@ -18,13 +18,16 @@ inline Vec3 point_at(const TriangleCorners& x, const Weights& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
+// The sine of the angle between two segments below which they are parallel.
+constexpr double nearly_parallel = 1e-3;
+
 // The nearest points of two segments, as shares of the way along each, if both lie between the ends (Ericson,
 // Real-Time Collision Detection, 5.1.9). None of parallel ones.
 std::optional<std::array<double, 2>> nearest_within(const Segment& p, const Segment& q);
 
 // The nearest points of a segment and a triangle that it does not pass through: at an end of the segment, or on
-// a side of the triangle. Where they are of sides that are parallel to a sine of 1e-3, the distance may be too
-// large by that share of the shorter one.
+// a side of the triangle. Where they are of sides that are nearly parallel, the distance may be too large by
+// that share of the shorter one.
 struct EdgeFaceNearest {
   double share = 0; // of the way along the segment
   Weights weight{};
