@@ -215,7 +215,7 @@ def main():
     parser.add_argument("--steps", type=int)
     parser.add_argument("--expect", type=int)
     parser.add_argument("--self-test", action="store_true")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     if arguments.self_test:
         self_test()
     elif not arguments.presets:

@@ -14,7 +14,7 @@
 // A floor is no support in this sense: it acts by impulses (sim/contact/contact_answer.h).
 #pragma once
 
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 #include "sim/outside/share.h"
 
 #include <optional>

@@ -32,7 +32,7 @@ void take_rule(LawSettings& law, const RuleBook& rules, const CriterionRequest& 
 }
 
 // With what is found on the body.
-LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) {
+LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
   check_settings(law);
   const SettingsSource& source = law.source;
   if (!law.kind.empty() && law.criterion->kinds.empty())
@@ -60,6 +60,7 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
       source.fail("change", fmt::format("'{}' {}", law.change->name, lacking),
                   "rend help tear tells what each change needs; change=\"split-vertex\" parts whole elements "
                   "of every kind");
+  law.by_place = Strength::of(law.strength, law.cell, *body.map, body.groups, source);
   if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }

@@ -23,7 +23,7 @@
 #include "sim/base/settings.h"
 #include "sim/build/rule_book.h"
 #include "sim/build/slit.h"
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 
 #include <map>
 #include <optional>

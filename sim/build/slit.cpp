@@ -4,7 +4,7 @@
 #include "sim/cuts/triangle_cut.h"
 #include "sim/house_rules/house_rules.h"
 #include "sim/mechanics/interaction.h"
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>

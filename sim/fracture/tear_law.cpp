@@ -33,37 +33,44 @@ bool has_larger_value(const Candidate& a, const Candidate& b) {
 template <> const Fields<LawSettings>& fields_of() {
   using S = LawSettings;
   constexpr bool required = true;
-  static const Fields<S> fields{
-      field(&S::criterion, all_criteria(), "criterion", "what is measured\n" + told(all_criteria()), required),
-      field(&S::threshold,
-            number("threshold", "",
-                   "the body tears where the criterion's value is larger than this: a force [N], a stress [Pa] "
-                   "or a strain (a ratio); rend run PRESET --reach tells which values are reached")
-                .above(0)
-                .is_required()),
-      field(&S::kind, word("kind", {"stretch", "shear", "bend"},
-                           "which springs are measured: for atomic-spring and strain")),
-      field(&S::compression,
-            flag("compression", "yes: compression counts as well as tension (for stresses and strains)")),
-      field(&S::change, all_changes(), "change",
-            "what happens where it tears; every change goes with every criterion (rend help tear says where it "
-            "is made); default: the first of these that acts on what the criterion measures\n" +
-                told(all_changes())),
-      field(&S::rule,
-            text("rule",
-                 "a rule to apply instead of a change: one of this scene, or a built-in one (rend rule list)")),
-      field(
-          &S::smallest_part,
-          number("smallest-part", "",
-                 "of cut: the least part of an element of the start that it leaves, as a share of its area or "
-                 "volume; from 0.0625 on, the sine of its least angle too is four times that share of what it "
-                 "was. More makes longer steps and a coarser crack")
-              .at_least(0.01)
-              .at_most(0.2)),
-      field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
-      field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
-      field(&S::max_per_step,
-            integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))};
+  static const Fields<S> fields =
+      Fields<S>{
+          field(&S::criterion, all_criteria(), "criterion", "what is measured\n" + told(all_criteria()),
+                required),
+          field(
+              &S::threshold,
+              number(
+                  "threshold", "",
+                  "the body tears where the criterion's value is larger than this: a force [N], a stress [Pa] "
+                  "or a strain (a ratio); rend run PRESET --reach tells which values are reached")
+                  .above(0)
+                  .is_required()),
+          field(&S::kind, word("kind", {"stretch", "shear", "bend"},
+                               "which springs are measured: for atomic-spring and strain")),
+          field(&S::compression,
+                flag("compression", "yes: compression counts as well as tension (for stresses and strains)")),
+          field(&S::change, all_changes(), "change",
+                "what happens where it tears; every change goes with every criterion (rend help tear says "
+                "where it "
+                "is made); default: the first of these that acts on what the criterion measures\n" +
+                    told(all_changes())),
+          field(&S::rule, text("rule", "a rule to apply instead of a change: one of this scene, or a built-in "
+                                       "one (rend rule list)")),
+          field(
+              &S::smallest_part,
+              number(
+                  "smallest-part", "",
+                  "of cut: the least part of an element of the start that it leaves, as a share of its area or "
+                  "volume; from 0.0625 on, the sine of its least angle too is four times that share of what it "
+                  "was. More makes longer steps and a coarser crack")
+                  .at_least(0.01)
+                  .at_most(0.2)),
+          field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
+          field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
+          field(
+              &S::max_per_step,
+              integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))} +
+      fields_of_part(&S::strength);
   return fields;
 }
 
@@ -112,7 +119,7 @@ void TearLaw::make_anew(const CriterionRequest& request) {
 
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
-  criterion_->find(view, settings_.threshold, candidates_);
+  scan(view, settings_.threshold);
   sort_candidates();
   return candidates_;
 }
@@ -123,12 +130,20 @@ const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, doub
   if (look && reached_.value < settings_.threshold)
     find_largest(view);
   else
-    criterion_->find(view, settings_.threshold, candidates_);
+    scan(view, settings_.threshold);
   if (candidates_.empty()) return candidates_;
   note_reached(view, time);
   std::erase_if(candidates_, [&](const Candidate& one) { return !(one.value > settings_.threshold); });
   sort_candidates();
   return candidates_;
+}
+
+// Adds the candidates above this value.
+void TearLaw::scan(const ForceView& view, double above) {
+  const Strength* const strength = settings_.by_place.get();
+  if (!strength) return criterion_->find(view, above, candidates_);
+  criterion_->find(view, above * strength->least(), candidates_);
+  strength->weigh(view.map, above, candidates_);
 }
 
 void TearLaw::sort_candidates() {
@@ -138,13 +153,11 @@ void TearLaw::sort_candidates() {
 // Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with
 // 0 every cell would be a candidate.
 void TearLaw::find_largest(const ForceView& view) {
-  if (reached_.value > 0 || std::isinf(settings_.threshold))
-    return criterion_->find(view, reached_.value, candidates_);
+  if (reached_.value > 0 || std::isinf(settings_.threshold)) return scan(view, reached_.value);
   constexpr int most_looks = 24; // down to 2e-22 of the threshold
   constexpr double factor = 1.0 / 8;
   double above = settings_.threshold;
-  for (int n = 0; n < most_looks && candidates_.empty(); ++n, above *= factor)
-    criterion_->find(view, above, candidates_);
+  for (int n = 0; n < most_looks && candidates_.empty(); ++n, above *= factor) scan(view, above);
 }
 
 // A law without a threshold (infinity), which only looks, passes over vertices that cannot be split: no

@@ -1,6 +1,9 @@
 // A fracture law: a criterion, a threshold and a change, combined freely (thesis 7.1). Where the criterion
 // measures cells of another kind than the change acts on, transfer.h says at which.
 //
+// Where its strength differs from place to place (strength.h), values are divided by it: those that are told,
+// as the largest value, can be compared with the threshold.
+//
 // A law also remembers the largest value that its criterion has reached, so that a threshold can be chosen: at
 // the steps at which it is told to look, it asks the criterion for what exceeds the largest value so far
 // instead of the threshold, which a criterion's bounds keep cheap (criterion.h: find()). What exceeds the
@@ -15,6 +18,7 @@
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/fragment_counter.h"
+#include "sim/fracture/strength.h"
 #include "sim/fracture/transfer.h"
 
 #include <limits>
@@ -30,6 +34,7 @@ struct LawSettings {
   const ChangeType* change = nullptr; // one of all_changes(); null: that of the criterion's cell
   std::string rule = {};              // instead of a change: the name of a rule; empty: none
   double smallest_part = LeastPart{}.size;
+  StrengthSettings strength = {};
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
   SettingsSource source = {};
@@ -38,6 +43,7 @@ struct LawSettings {
   Cell cell = Cell::Borders;                      // of the criterion
   std::string unit = {};                          // of the threshold
   std::shared_ptr<const ChangeType> by_rule = {}; // what `change` is then
+  std::shared_ptr<const Strength> by_place = {};  // null: the same everywhere
 };
 
 template <> const Fields<LawSettings>& fields_of();
@@ -85,6 +91,7 @@ public:
   std::size_t bytes() const;
 
 private:
+  void scan(const ForceView& view, double above);
   void sort_candidates();
   void find_largest(const ForceView& view);
   void note_reached(const ForceView& view, double time);

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "sim/base/bytes.h"
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 
 #include <limits>
 #include <variant>

@@ -12,7 +12,7 @@
 // parts that are torn off keep theirs, those of deleted elements are lost.
 #pragma once
 
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 #include "sim/outside/wind.h"
 
 #include <limits>

@@ -1,5 +1,5 @@
 // What a selector selects, against conditions on rest positions written here.
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 
 #include "sim/presets.h"
 

@@ -1,4 +1,4 @@
-#include "sim/outside/selector.h"
+#include "sim/embedding/selector.h"
 
 #include "sim/base/wording.h"
 

@@ -1,0 +1,116 @@
+// Where a law of tearing acts, and how strong the body is there:
+//
+//   value > threshold · s(cell)
+//
+// s of an element (a face of a sheet, a volume of a solid) is an expression of the middle X of its vertices at
+// rest, evaluated when the body is built, and for elements that are made later when they are made. What is cut
+// from an element is as strong as that was. s of a vertex, an edge or a border is the least of the elements at
+// it: what is held by several breaks with the weakest.
+//
+//   rest              X [m]; its coordinates are x(rest), y(rest), z(rest)
+//   random            one draw for each element of the start, between 0 and 1: a hash of X and of the seed
+//   weibull(m)        (V/v)^(1/m) (−ln(1 − random))^(1/m), v: volume (area) of the element, V: of the body,
+//                     both at rest; or V as given: weibull(m, V) [m³, m²]
+//   in(name)          whether all vertices of the element are in this group of the mesh file
+//
+// With weibull(m) a body of N elements breaks at its weakest one with the probability
+//
+//   1 − Π exp(−(v_i/V) (σ/σ₀)^m) = 1 − exp(−(σ/σ₀)^m)        σ₀: threshold; σ: stress, the same everywhere
+//
+// however fine its mesh is (W. Weibull, A statistical distribution function of wide applicability, J. Appl.
+// Mech. 1951), and at a stress that is lower by (V/V')^(1/m) if it is larger than the V' that was given.
+//
+// A law that selects vertices changes cells whose vertices are all selected.
+#pragma once
+
+#include "sim/embedding/selector.h"
+#include "sim/expression/expression.h"
+#include "sim/fracture/criterion.h"
+
+#include <memory>
+
+namespace rend {
+
+struct StrengthSettings {
+  Selector where = {};     // none: everywhere
+  std::string factor = {}; // s; empty: 1
+  int seed = 0;            // of random
+};
+template <> const Fields<StrengthSettings>& fields_of();
+
+// s as a function of the place.
+class StrengthExpression {
+public:
+  // UserError: no such expression, no such group, weibull of what is not above 0.
+  StrengthExpression(const StrengthSettings& settings, EmbeddedMap& map, const VertexGroups& groups,
+                     const SettingsSource& source);
+  double at(const EmbeddedMap& map, Dart element) const; // UserError: not above 0
+
+private:
+  struct Element;
+  double random_at(const Vec3& middle) const;
+  Value supply(const ExpressionCall& call, std::span<const Value> arguments, const Element& element) const;
+
+  Expression expression_;
+  int seed_;
+  double size_ = 0; // [m³], of a sheet [m²]: of the body at rest
+  VertexGroups groups_;
+  SettingsSource source_;
+};
+
+struct ElementStrength {
+  using Value = double;
+  std::string name = "strength";
+  Orbit orbit = FaceOfVolume;
+  Orbit support = SingleDart; // what moves its corners does not change it
+  std::shared_ptr<const StrengthExpression> expression = {};
+  Value birth(const EmbeddedMap& map, Dart d) const { return expression->at(map, d); }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value&) const { return kept; }
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    return sum_of(parents);
+  }
+};
+
+// Whether a law may change what lies at a vertex.
+struct SelectedVertex {
+  using Value = std::uint8_t;
+  std::string name = "selected";
+  Orbit orbit = Vertex;
+  Orbit support = SingleDart;
+  Value birth(const EmbeddedMap&, Dart) const { return 0; }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    Value all = 1;
+    for (const Inherited<Value>& parent : parents) all &= parent.value;
+    return all;
+  }
+};
+
+// Of one law on one body.
+class Strength {
+public:
+  // Null: it is the same everywhere, and nothing is stored. UserError: as above; no such vertices, or no cell
+  // of which all are selected.
+  static std::shared_ptr<const Strength> of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
+                                            const VertexGroups& groups, const SettingsSource& source);
+
+  double least() const { return least_; } // of the elements of the start
+  // Divides the values of the candidates by the strength of their cells; drops those that are then not above
+  // this value, or are not selected.
+  void weigh(const EmbeddedMap& map, double above, std::vector<Candidate>& candidates) const;
+
+private:
+  explicit Strength(Cell cell) : cell_(cell) {}
+  void select(EmbeddedMap& map, const std::vector<Slot>& vertices, const SettingsSource& source);
+  bool is_selected(const EmbeddedMap& map, std::span<const Dart> cell) const;
+  double at(const EmbeddedMap& map, std::span<const Dart> cell) const;
+
+  Cell cell_;
+  const Column<ElementStrength>* strength_ = nullptr; // null: 1 everywhere
+  const Column<SelectedVertex>* selected_ = nullptr;  // null: all
+  double least_ = 1;
+};
+
+} // namespace rend

@@ -1,0 +1,148 @@
+// Strength by place: where a law acts, what its threshold is multiplied by, draws of Weibull's distribution.
+#include "sim/fracture/strength.h"
+
+#include "sim/base/math.h"
+#include "sim/presets.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace rend::strength_test {
+namespace {
+
+// A strip from x = 0 to 2 that is pulled at both ends: the same stress everywhere.
+presets::Loaded strip(const std::string& law, const std::string& pattern = "quads") {
+  return presets::load(
+      R"(<scene><body><sheet pattern=")" + pattern + R"(" cells="16 4" size="2 0.5"/><mass total="0.1"/>
+         <elasticity model="corotational" young="1e5" poisson="0" thickness="0.001" damping-stiffness="1e-3"/>
+         <drive side="-x" velocity="-0.05 0 0"/><drive side="+x" velocity="0.05 0 0"/>)" +
+      law + R"(</body><world gravity="0 0 0"/><time step="auto" integrator="verlet" duration="2"/></scene>)");
+}
+
+std::vector<double> places_of_tears(const presets::Loaded& scene, double until = 1) {
+  while (scene->time() < until && scene->tears() < 40) scene->step();
+  std::vector<double> x;
+  for (const TearEvent& event : scene.body().events) {
+    const EmbeddedMap& map = *scene.body().map;
+    x.push_back(map.rest_of(event.dart).x());
+  }
+  return x;
+}
+
+std::vector<double> strengths_of(const Body& body) {
+  const auto* column = find_column<ElementStrength>(*body.map);
+  if (!column) return {};
+  std::vector<double> all;
+  const CellIndex& elements = body.map->cells(column->orbit());
+  for (Slot e = 0; e < elements.slots(); ++e)
+    if (elements.alive(e)) all.push_back((*column)[e]);
+  return all;
+}
+
+TEST(Strength, decides_where_a_body_tears_that_is_loaded_the_same_everywhere) {
+  const auto scene = strip(R"-(<tear criterion="vertex-stress" threshold="2e3" change="split-vertex"
+                                     strength="if(abs(x(rest) - 1.4) &lt; 0.1, 1, 2)"/>)-");
+  const std::vector<double> places = places_of_tears(scene);
+  ASSERT_GT(places.size(), 2u);
+  EXPECT_THAT(places, testing::Each(testing::AllOf(testing::Ge(1.1), testing::Le(1.7))));
+}
+
+TEST(Strength, is_what_the_threshold_is_multiplied_by) {
+  const auto first_tear = [](const std::string& law) {
+    const auto scene = strip("<tear criterion=\"vertex-stress\" change=\"split-vertex\" " + law + "/>");
+    places_of_tears(scene);
+    const TearEvent& first = scene.body().events.front();
+    return std::pair(first.time, first.dart);
+  };
+  EXPECT_EQ(first_tear(R"(threshold="3e3")"), first_tear(R"(threshold="1.5e3" strength="2")"));
+  EXPECT_EQ(first_tear(R"(threshold="3e3")"), first_tear(R"(threshold="3e3" all="yes")"));
+}
+
+TEST(Strength, of_a_law_that_selects_is_asked_for_at_selected_vertices_alone) {
+  for (const std::string criterion : {"vertex-stress", "atomic-border", "atomic-element"}) {
+    const auto scene =
+        strip(fmt::format(R"(<tear criterion="{}" threshold="{}" change="separate" box="-1 -1 -1  0.6 1 1"/>)",
+                          criterion, criterion == "atomic-border" ? "0.05" : "2e3"));
+    const std::vector<double> places = places_of_tears(scene);
+    ASSERT_FALSE(places.empty()) << criterion;
+    EXPECT_THAT(places, testing::Each(testing::Le(0.75))) << criterion;
+  }
+}
+
+TEST(Strength, of_parts_is_that_of_the_element_they_were_cut_from) {
+  const auto scene = strip(
+      R"(<tear criterion="vertex-stress" threshold="2e3" change="cut" strength="1 + 0.5*random" seed="3"/>)",
+      "crossed");
+  const std::vector<double> before = strengths_of(scene.body());
+  const std::set<double> known(before.begin(), before.end());
+  EXPECT_GT(known.size(), before.size() - 2) << "each element has a draw of its own";
+  ASSERT_GT(places_of_tears(scene).size(), 5u);
+  const std::vector<double> after = strengths_of(scene.body());
+  ASSERT_GT(after.size(), before.size()) << "some were cut";
+  for (const double each : after) EXPECT_THAT(known, testing::Contains(testing::DoubleNear(each, 1e-14)));
+}
+
+TEST(Strength, costs_nothing_where_nothing_asks_for_it) {
+  const auto scene = strip(R"(<tear criterion="vertex-stress" threshold="2e3" change="split-vertex"/>)");
+  EXPECT_EQ(scene.body().tear_laws.front().settings().by_place, nullptr);
+  EXPECT_EQ(find_column<ElementStrength>(*scene.body().map), nullptr);
+  EXPECT_EQ(find_column<SelectedVertex>(*scene.body().map), nullptr);
+}
+
+// ln of the strengths of 4,000 bars, each that of its weakest element.
+std::vector<double> weakest(const std::string& factor, const std::string& bar) {
+  const auto scene = presets::load("<scene><body>" + bar + R"(<mass density="1000"/></body>
+                                   <time step="1e-3" duration="1"/></scene>)");
+  EmbeddedMap& map = *scene.body().map;
+  const CellIndex& elements = map.use(Volume);
+  std::vector<double> all;
+  for (int seed = 0; seed < 4000; ++seed) {
+    const StrengthExpression strength({.factor = factor, .seed = seed}, map, {}, {});
+    double least = 1e300;
+    for (Slot e = 0; e < elements.slots(); ++e)
+      least = std::min(least, strength.at(map, elements.first_dart(e)));
+    all.push_back(std::log(least));
+  }
+  return all;
+}
+
+double mean(const std::vector<double>& all) {
+  double sum = 0;
+  for (const double each : all) sum += each;
+  return sum / static_cast<double>(all.size());
+}
+
+// That of Weibull's distribution whose logarithms have this variance: π²/6m².
+double modulus(const std::vector<double>& all) {
+  double sum = 0;
+  for (const double each : all) sum += (each - mean(all)) * (each - mean(all));
+  return pi / std::sqrt(6 * sum / static_cast<double>(all.size() - 1));
+}
+
+// E ln = ln σ₀ − γ/m
+double characteristic(const std::vector<double>& all, double m) {
+  constexpr double euler = 0.57721566490153286;
+  return std::exp(mean(all) + euler / m);
+}
+
+TEST(Strength, of_a_bar_has_the_modulus_asked_for_however_fine_its_mesh_is) {
+  for (const std::string cells : {"10 1 1", "20 2 2"}) {
+    const auto all = weakest("weibull(6)", R"(<bar cells=")" + cells + R"(" size="1 0.1 0.1"/>)");
+    EXPECT_NEAR(modulus(all), 6, 0.08 * 6) << cells;
+    EXPECT_NEAR(characteristic(all, 6), 1, 0.02) << cells;
+  }
+}
+
+TEST(Strength, of_a_larger_bar_is_less_by_the_root_of_its_volume) {
+  const auto small = weakest("weibull(6, 0.01)", R"(<bar cells="10 1 1" size="1 0.1 0.1"/>)"),
+             large = weakest("weibull(6, 0.01)", R"(<bar cells="20 2 2" size="2 0.2 0.2"/>)");
+  EXPECT_NEAR(std::exp(mean(large) - mean(small)), std::pow(8, -1.0 / 6), 0.02);
+}
+
+} // namespace
+} // namespace rend::strength_test
