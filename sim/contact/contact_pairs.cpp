@@ -125,7 +125,7 @@ void ContactPairs::keep_lists(std::vector<Neighbours>& before) {
 
 // Which neighbours may touch in this step, which of them are to be searched, and which fragments are to be
 // renewed for that: the less they have moved when a list is made, the longer it holds.
-void ContactPairs::note_near(const Bodies& bodies) {
+void ContactPairs::note_near(const Bodies& bodies, bool further) {
   const std::vector<Fragment>& all = fragments_.all();
   renewal_.assign(all.size(), Renewal::Alone);
   due_.clear();
@@ -137,7 +137,7 @@ void ContactPairs::note_near(const Bodies& bodies) {
     }
     for (const std::uint32_t f : {list.a, list.b})
       if (renewal_[f] == Renewal::Alone) renewal_[f] = Renewal::None;
-    if (list.searched && moved(list) <= list.skin) continue;
+    if (list.searched && (further || moved(list) <= list.skin)) continue;
     due_.push_back(static_cast<std::size_t>(&list - neighbours_.data()));
     const double faces = (a.triangles_end - a.triangles) + (b.triangles_end - b.triangles);
     // of solids half as much, for which depths are looked for as well
@@ -370,7 +370,7 @@ void ContactPairs::search_further(const Bodies& bodies, const std::vector<double
   }
   if (!any) return;
   if (!all_within()) sweep(bodies);
-  note_near(bodies);
+  note_near(bodies, true);
   renew(bodies);
   search_due(bodies);
   for (Neighbours& list : neighbours_) {

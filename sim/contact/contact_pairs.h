@@ -36,7 +36,7 @@
 //
 // An edge and a face that were at a distance d at a search are at d − M at least, less what contact has pushed
 // their fragments by since M was measured: they may cross in a step where that is not positive. Those that were
-// farther apart than the skin do not: the two are searched again where M and what they are pushed by exceed it.
+// farther apart than the two were searched do not: they are searched again where M and the pushes exceed that.
 #pragma once
 
 #include "sim/contact/contact_fragments.h"
@@ -123,7 +123,7 @@ private:
   void sweep(const Bodies& bodies);
   bool all_within() const; // the boxes of the last sweep
   void keep_lists(std::vector<Neighbours>& before);
-  void note_near(const Bodies& bodies);
+  void note_near(const Bodies& bodies, bool further = false);
   void renew(const Bodies& bodies);
   // of the candidates
   void drop(Neighbours& list);

@@ -21,7 +21,7 @@ Segment segment_between(const Segment& a, const Segment& b, double share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
 }
 
-// At rest, where segments may be parallel: the least distance of an end from the other one then.
+// At rest, where segments may be parallel: the least distance of an end from the other segment then.
 double segment_distance(const Segment& p, const Segment& q) {
   if (const auto shares = nearest_within(p, q))
     return (point_at(p, (*shares)[0]) - point_at(q, (*shares)[1])).norm();

@@ -57,7 +57,7 @@ private:
     std::uint32_t fragment = 0;
   };
   struct Pair {
-    std::uint32_t body = 0, edge = 0; // index into edges_ of the body
+    std::uint32_t body = 0, edge = 0; // index into of_[body].edges
     std::uint32_t other_body = 0, other_edge = 0;
     double clear = 0; // [m]: the two do not touch while they have moved by less than this together
   };

@@ -4,7 +4,8 @@
 // a crumpled sheet, whose layers are nearer to each other than its cells are large, the number of pairs grows
 // with the cube of the margin; of shards in a heap it hardly does. So the margin follows what was counted since
 // the last search: it becomes narrower if going through the pairs took longer than to search them, or else
-// wider, within bounds. It depends on the steps before; the lists contain all that touch with any margin.
+// wider, within bounds. It depends on the steps before, since the map was last changed; the lists contain
+// all that touch with any margin.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace rend {
 
 class SearchMargin {
 public:
-  void searched(std::size_t looks) { searched_ += looks; } // at a pair, or to find those of one item
+  void searched(std::size_t looks) { searched_ += looks; } // at pairs, and searches for those of one item
   void passed(std::size_t pairs) { passed_ += pairs; }     // gone through in a step
 
   // For the next search [m].
@@ -26,7 +27,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t in_search = 16; // times as long as a look at a pair in a step
+  static constexpr std::size_t in_search = 16; // a look in a search takes as long as passing so many pairs
   static constexpr double narrower = 0.8, least = 1.0 / 16;
   double share_ = 1; // of the widest
   std::size_t searched_ = 0, passed_ = 0;

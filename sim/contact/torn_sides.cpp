@@ -14,9 +14,9 @@ using Corners = std::span<const std::array<Slot, 2>>;
 
 // Of two sides at the start of the step.
 struct Opposition {
-  Vec3 normal;             // from the other side to the one
-  double size = 0;         // [m], of the smaller side
-  Vec3 off = Vec3::Zero(); // normal of a sheet; of solids zero
+  Vec3 normal;                  // from the other side to the one
+  double size = 0;              // [m], of the smaller side
+  std::optional<Vec3> off = {}; // normal of a sheet; none: of a solid
 };
 
 // From their outward vectors; none: they do not face each other.
@@ -46,6 +46,7 @@ std::optional<Opposition> opposition_of_edges(const ContactBody& body, Corners e
     const Vec3 way = along(side), in = body.from(inside[side]) - body.from(ends[0][side]);
     return Vec3(way.dot(in) * way - way.squaredNorm() * in);
   };
+  if (!(along(0).dot(along(1)) > 0)) return {};
   auto found = opposition_of(outward(0), outward(1), std::min(along(0).norm(), along(1).norm()));
   if (found) found->off = found->normal.cross(along(0) + along(1)).normalized();
   return found;
@@ -55,13 +56,12 @@ std::optional<ContactConstraint> touch_at(const ContactBody& body, const std::ar
                                           const Opposition& sides) {
   const auto [a, b] = corner;
   const double thickness = body.settings().thickness;
-  const bool of_sheet = !sides.off.isZero(0);
   const Vec3& normal = sides.normal;
   const Vec3 off = body.from(a) - body.from(b);
   const double gap = normal.dot(off), most = opposite * sides.size;
   if (gap < -most || (off - gap * normal).squaredNorm() > most * most) return {};
-  if (std::abs(sides.off.dot(off)) > within_plane * thickness) return {};
-  const double kept = of_sheet ? 0 : std::clamp(gap, 0.0, thickness);
+  if (sides.off && std::abs(sides.off->dot(off)) > within_plane * thickness) return {};
+  const double kept = sides.off ? 0 : std::clamp(gap, 0.0, thickness);
   if (normal.dot(body.position(a).vec() - body.position(b).vec()) >= kept) return {}; // as most
   return contact_between(ContactPoint::at(body, a), ContactPoint::at(body, b), normal, kept);
 }

@@ -18,8 +18,8 @@
 // It is asked for where x and x' are still opposite each other: within half a side along it, and no deeper than
 // that, with m·m' < 0; in sheets, no farther off their plane than a hundredth of the thickness. What has slid
 // farther or come loose is for fragment_contact.h, and so are sheets one of which begins to cover the other:
-// they have a side of each other by then. (As far as the thickness, in contact/drill: 155 crossings, in place
-// of none.) Looked at anew in each step, so that nothing of it is stored.
+// they have a side of each other by then. (With the whole thickness as that limit contact/drill has 155
+// crossings, with a hundredth of it none.) Looked at anew in each step, so that nothing of it is stored.
 //
 // (Before this, most crossings began within a fragment: its sides had turned through each other about the
 // vertices that they shared. Vertices against all faces around the joined one, signed likewise: half as many
@@ -28,7 +28,7 @@
 // crossings as before, for 5 times the time.)
 //
 // Limits: sides that have an edge or a vertex in common at rest, but were not one, are not opposite each other;
-// nor is what a later cut has divided on one side alone.
+// nor is what a later cut has divided on one side alone, nor edges of a face that has a reflex angle there.
 #pragma once
 
 #include "sim/contact/contact_answer.h"

@@ -62,16 +62,20 @@ std::vector<Slot> nearest_vertex(const EmbeddedMap& map, const Vec3& to) {
   return {best};
 }
 
+} // namespace
+
 const std::vector<Slot>& vertices_of_group(const VertexGroups& groups, const std::string& name,
-                                           const SettingsSource& source) {
+                                           std::string_view attribute, const SettingsSource& source) {
   const auto group = groups.find(name);
   if (group != groups.end()) return group->second;
   std::vector<std::string> names;
   for (const auto& [each, slots] : groups) names.push_back(each);
-  source.fail("group", fmt::format("the body has no group {}", in_quotes(name)),
+  source.fail(attribute, fmt::format("the body has no group {}", in_quotes(name)),
               names.empty() ? "groups come from a <mesh> whose file has them"
                             : suggestion(name, names, "groups"));
 }
+
+namespace {
 
 std::vector<Slot> vertices_in_box(const EmbeddedMap& map, const std::array<double, 6>& v, double slack) {
   const Vec3 low = Vec3(v[0], v[1], v[2]).cwiseMin(Vec3(v[3], v[4], v[5]));
@@ -122,7 +126,7 @@ std::vector<Slot> select_vertices(const EmbeddedMap& map, const VertexGroups& gr
   else if (how == "side")
     chosen = vertices_at_end(map, selector.side, b, slack);
   else if (how == "group")
-    chosen = vertices_of_group(groups, selector.group, source);
+    chosen = vertices_of_group(groups, selector.group, "group", source);
   else if (*selector.all)
     chosen = vertices_where(map, [](const Vec3&) { return true; });
   if (chosen.empty())

@@ -37,4 +37,8 @@ using VertexGroups = std::map<std::string, std::vector<Slot>>; // of a mesh file
 std::vector<Slot> select_vertices(const EmbeddedMap& map, const VertexGroups& groups, const Selector& selector,
                                   const std::string& element, const SettingsSource& source);
 
+// Increasing. UserError, at this attribute: there is no such group.
+const std::vector<Slot>& vertices_of_group(const VertexGroups& groups, const std::string& name,
+                                           std::string_view attribute, const SettingsSource& source);
+
 } // namespace rend

@@ -5,8 +5,8 @@
 // To add one: a file with a function `CriterionType my_criterion()`, and its name in all_criteria().
 #pragma once
 
-#include "sim/fracture/cell.h"
 #include "sim/cuts/least_part.h"
+#include "sim/fracture/cell.h"
 #include "sim/rows/program.h"
 
 #include <functional>
@@ -23,6 +23,8 @@ struct Candidate {
   double value = 0;           // in the criterion's unit, above the threshold
   Dart dart;                  // the smallest of the cell
   Vec3 normal = Vec3::Zero(); // of a vertex: unit normal of the plane along which it would be split
+  double strength = 1;        // of the cell: what the threshold is multiplied by there (strength.h)
+  double relative() const { return value / strength; }
 };
 
 // The state that criteria evaluate.

@@ -9,9 +9,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace rend {
 namespace {
+
+constexpr double least_strength = 1e-6;
 
 enum class Known : std::size_t { Rest, Random, Weibull, In };
 
@@ -73,13 +77,8 @@ StrengthExpression::StrengthExpression(const StrengthSettings& settings, Embedde
                                        const VertexGroups& groups, const SettingsSource& source)
     : expression_(read(settings, source)), seed_(settings.seed), source_(source) {
   for (const ExpressionCall& call : expression_.calls())
-    for (const std::string& name : call.names) {
-      const auto group = groups.find(name);
-      if (group == groups.end())
-        source.fail("strength", fmt::format("the body has no group '{}'", name),
-                    "groups are those that its mesh file names");
-      groups_.insert(*group);
-    }
+    for (const std::string& name : call.names)
+      groups_[name] = vertices_of_group(groups, name, "strength", source);
   const CellIndex& elements = map.use(element_orbit(map.dimension()));
   for (Slot e = 0; e < elements.slots(); ++e)
     if (elements.alive(e)) size_ += size_at_rest(map, elements.first_dart(e));
@@ -103,8 +102,11 @@ double StrengthExpression::at(const EmbeddedMap& map, Dart element) const {
               return supply(call, arguments, there);
             })
             .scalar();
-    if (factor > 0) return factor;
-    source_.fail("strength", fmt::format("the strength is {:g} {}, and must be above 0", factor, where()));
+    if (factor > least_strength) return factor;
+    source_.fail(
+        "strength",
+        fmt::format("the strength is {:g} {}, and must be above {:g}", factor, where(), least_strength),
+        "max(0.1, ...) keeps it above 0.1");
   } catch (const ExpressionError& error) {
     source_.fail("strength", fmt::format("{} ({})", error.what(), where()), error.hint);
   }
@@ -113,7 +115,7 @@ double StrengthExpression::at(const EmbeddedMap& map, Dart element) const {
 double StrengthExpression::random_at(const Vec3& middle) const {
   const std::array<double, 3> place{middle.x() + 0.0, middle.y() + 0.0, middle.z() + 0.0}; // no -0
   const std::uint64_t hash = hash_bytes(place.data(), sizeof place, static_cast<std::uint64_t>(seed_));
-  return (static_cast<double>(hash >> 11) + 0.5) * 0x1p-53;
+  return (static_cast<double>(hash >> 12) + 0.5) * 0x1p-52;
 }
 
 Value StrengthExpression::supply(const ExpressionCall& call, std::span<const Value> arguments,
@@ -126,7 +128,8 @@ Value StrengthExpression::supply(const ExpressionCall& call, std::span<const Val
   case Known::Weibull: {
     const double modulus = arguments[0].scalar(), whole = arguments.size() > 1 ? arguments[1].scalar() : size_;
     if (!(modulus > 0) || !(whole > 0))
-      throw ExpressionError(call.column, "'weibull' is of a modulus above 0, and of a volume or area above 0");
+      throw ExpressionError(call.column, "'weibull' is of a modulus above 0, and of a volume or area above 0",
+                            "weibull(8) is one of modulus 8");
     return scalar_value(power(whole / there.size * -logarithm(1 - random_at(there.middle)), 1 / modulus));
   }
   case Known::In:
@@ -136,28 +139,39 @@ Value StrengthExpression::supply(const ExpressionCall& call, std::span<const Val
   return condition_value(std::includes(group.begin(), group.end(), there.corners.begin(), there.corners.end()));
 }
 
-std::shared_ptr<const Strength> Strength::of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
-                                             const VertexGroups& groups, const SettingsSource& source) {
-  if (settings.factor.empty() && !settings.where.given()) {
-    if (source.given("seed"))
-      source.fail("seed", "<tear> has a seed, and no strength that draws anything",
-                  "strength=\"1 + 0.3*random\" is one that does");
-    return nullptr;
-  }
+bool StrengthExpression::draws() const {
+  return std::ranges::any_of(expression_.calls(), [](const ExpressionCall& call) {
+    const auto known = static_cast<Known>(call.function);
+    return known == Known::Random || known == Known::Weibull;
+  });
+}
+
+std::shared_ptr<Strength> Strength::of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
+                                       const VertexGroups& groups, const SettingsSource& source) {
   std::shared_ptr<Strength> made(new Strength(cell));
-  if (!settings.factor.empty()) {
-    ElementStrength strength{.orbit = element_orbit(map.dimension()),
-                             .expression = std::make_shared<StrengthExpression>(settings, map, groups, source)};
-    const auto& column = map.add(std::move(strength));
-    made->strength_ = &column;
-    const CellIndex& elements = map.cells(column.orbit());
-    made->least_ = std::numeric_limits<double>::infinity();
-    for (Slot e = 0; e < elements.slots(); ++e)
-      if (elements.alive(e)) made->least_ = std::min(made->least_, column[e]);
+  bool draws = false;
+  if (!settings.factor.empty() || source.given("strength")) {
+    const auto expression = std::make_shared<StrengthExpression>(settings, map, groups, source);
+    draws = expression->draws();
+    ElementStrength strength{.orbit = element_orbit(map.dimension()), .expression = expression};
+    made->strength_ = &map.add(std::move(strength));
+    made->elements_ = &map.cells(made->strength_->orbit());
+    expression->forget_groups();
+    made->rebind();
   }
-  if (settings.where.given())
+  if (source.given("seed") && !draws)
+    source.fail("seed", "<tear> has a seed, and no strength that draws anything",
+                "strength=\"1 + 0.3*random\" is one that does");
+  if (settings.where.given() || source.given("group"))
     made->select(map, select_vertices(map, groups, settings.where, "tear", source), source);
-  return made;
+  return made->strength_ || made->selected_ ? made : nullptr;
+}
+
+void Strength::rebind() {
+  if (!strength_) return;
+  least_ = std::numeric_limits<double>::max();
+  for (Slot e = 0; e < elements_->slots(); ++e)
+    if (elements_->alive(e)) least_ = std::min(least_, (*strength_)[e]);
 }
 
 void Strength::select(EmbeddedMap& map, const std::vector<Slot>& vertices, const SettingsSource& source) {
@@ -191,8 +205,8 @@ void Strength::weigh(const EmbeddedMap& map, double above, std::vector<Candidate
     cell.clear();
     collect(map.map(), orbit, candidate.dart, cell);
     if (!is_selected(map, cell)) return true;
-    candidate.value /= at(map, cell);
-    return !(candidate.value > above);
+    candidate.strength = at(map, cell);
+    return !(candidate.relative() > above);
   });
 }
 

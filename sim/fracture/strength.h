@@ -2,16 +2,18 @@
 //
 //   value > threshold · s(cell)
 //
-// s of an element (a face of a sheet, a volume of a solid) is an expression of the middle X of its vertices at
-// rest, evaluated when the body is built, and for elements that are made later when they are made. What is cut
-// from an element is as strong as that was. s of a vertex, an edge or a border is the least of the elements at
-// it: what is held by several breaks with the weakest.
+// s of an element (a face of a sheet, a volume of a solid) is an expression of the middle X of its vertices
+// at rest, evaluated when the body is built, and for elements that a rule makes of nothing when they are made.
+// What is made of one element is as strong as that was, of several as their mean; what is merged as the weaker.
+// s of a vertex, an edge or a border is the least of the elements at it: what is held by several breaks with
+// the weakest.
 //
 //   rest              X [m]; its coordinates are x(rest), y(rest), z(rest)
 //   random            one draw for each element of the start, between 0 and 1: a hash of X and of the seed
 //   weibull(m)        (V/v)^(1/m) (−ln(1 − random))^(1/m), v: volume (area) of the element, V: of the body,
 //                     both at rest; or V as given: weibull(m, V) [m³, m²]
-//   in(name)          whether all vertices of the element are in this group of the mesh file
+//   in(name)          whether all vertices of the element are in this group of the mesh file; no element that
+//                     is made later, and not of others, is
 //
 // With weibull(m) a body of N elements breaks at its weakest one with the probability
 //
@@ -20,13 +22,16 @@
 // however fine its mesh is (W. Weibull, A statistical distribution function of wide applicability, J. Appl.
 // Mech. 1951), and at a stress that is lower by (V/V')^(1/m) if it is larger than the V' that was given.
 //
-// A law that selects vertices changes cells whose vertices are all selected.
+// s is above 1e-6. A law that selects vertices acts where all vertices of the cell that its criterion measures
+// are selected; what it changes there may reach one element beyond. A new vertex is selected if all are that it
+// is made of.
 #pragma once
 
 #include "sim/embedding/selector.h"
 #include "sim/expression/expression.h"
 #include "sim/fracture/criterion.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace rend {
@@ -44,7 +49,10 @@ public:
   // UserError: no such expression, no such group, weibull of what is not above 0.
   StrengthExpression(const StrengthSettings& settings, EmbeddedMap& map, const VertexGroups& groups,
                      const SettingsSource& source);
-  double at(const EmbeddedMap& map, Dart element) const; // UserError: not above 0
+  // UserError, also in the midst of a run: not above 1e-6, or not finite.
+  double at(const EmbeddedMap& map, Dart element) const;
+  bool draws() const;                       // random or weibull
+  void forget_groups() { groups_.clear(); } // their slots are those of the start
 
 private:
   struct Element;
@@ -66,7 +74,7 @@ struct ElementStrength {
   std::shared_ptr<const StrengthExpression> expression = {};
   Value birth(const EmbeddedMap& map, Dart d) const { return expression->at(map, d); }
   Value split(const Value& whole) const { return whole; }
-  Value merge(const Value& kept, const Value&) const { return kept; }
+  Value merge(const Value& kept, const Value& absorbed) const { return std::min(kept, absorbed); }
   Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
     return sum_of(parents);
   }
@@ -80,7 +88,7 @@ struct SelectedVertex {
   Orbit support = SingleDart;
   Value birth(const EmbeddedMap&, Dart) const { return 0; }
   Value split(const Value& whole) const { return whole; }
-  Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }
+  Value merge(const Value& kept, const Value& absorbed) const { return kept & absorbed; }
   Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
     Value all = 1;
     for (const Inherited<Value>& parent : parents) all &= parent.value;
@@ -93,12 +101,13 @@ class Strength {
 public:
   // Null: it is the same everywhere, and nothing is stored. UserError: as above; no such vertices, or no cell
   // of which all are selected.
-  static std::shared_ptr<const Strength> of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
-                                            const VertexGroups& groups, const SettingsSource& source);
+  static std::shared_ptr<Strength> of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
+                                      const VertexGroups& groups, const SettingsSource& source);
 
-  double least() const { return least_; } // of the elements of the start
-  // Divides the values of the candidates by the strength of their cells; drops those that are then not above
-  // this value, or are not selected.
+  void rebind();                          // after a change of the map
+  double least() const { return least_; } // of all elements
+  // Gives candidates the strength of their cells; drops those that are not above this value relative to it, or
+  // not selected.
   void weigh(const EmbeddedMap& map, double above, std::vector<Candidate>& candidates) const;
 
 private:
@@ -109,6 +118,7 @@ private:
 
   Cell cell_;
   const Column<ElementStrength>* strength_ = nullptr; // null: 1 everywhere
+  const CellIndex* elements_ = nullptr;               // null: likewise
   const Column<SelectedVertex>* selected_ = nullptr;  // null: all
   double least_ = 1;
 };

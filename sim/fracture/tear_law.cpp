@@ -25,7 +25,7 @@ template <class T> std::string told(const std::vector<T>& all) {
 
 // The largest value first, then the smallest dart.
 bool has_larger_value(const Candidate& a, const Candidate& b) {
-  return a.value != b.value ? a.value > b.value : a.dart < b.dart;
+  return a.relative() != b.relative() ? a.relative() > b.relative() : a.dart < b.dart;
 }
 
 } // namespace
@@ -51,8 +51,7 @@ template <> const Fields<LawSettings>& fields_of() {
                 flag("compression", "yes: compression counts as well as tension (for stresses and strains)")),
           field(&S::change, all_changes(), "change",
                 "what happens where it tears; every change goes with every criterion (rend help tear says "
-                "where it "
-                "is made); default: the first of these that acts on what the criterion measures\n" +
+                "where it is made); default: the first of these that acts on what the criterion measures\n" +
                     told(all_changes())),
           field(&S::rule, text("rule", "a rule to apply instead of a change: one of this scene, or a built-in "
                                        "one (rend rule list)")),
@@ -133,7 +132,7 @@ const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, doub
     scan(view, settings_.threshold);
   if (candidates_.empty()) return candidates_;
   note_reached(view, time);
-  std::erase_if(candidates_, [&](const Candidate& one) { return !(one.value > settings_.threshold); });
+  std::erase_if(candidates_, [&](const Candidate& one) { return !(one.relative() > settings_.threshold); });
   sort_candidates();
   return candidates_;
 }
@@ -167,11 +166,11 @@ void TearLaw::note_reached(const ForceView& view, double time) {
   if (splits) sort_candidates();
   auto one = splits ? candidates_.begin()
                     : std::min_element(candidates_.begin(), candidates_.end(), &has_larger_value);
-  for (; one != candidates_.end() && one->value > reached_.value; ++one) {
+  for (; one != candidates_.end() && one->relative() > reached_.value; ++one) {
     left_.clear();
     collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), one->dart, left_);
     if (splits && !can_be_split(view, {one->normal, one->value}, left_)) continue;
-    reached_ = {one->value, time, middle_of(view.map, view.position, left_)};
+    reached_ = {one->relative(), time, middle_of(view.map, view.position, left_)};
     return;
   }
 }
@@ -190,6 +189,7 @@ void TearLaw::store(Archive& archive, double now) {
 
 void TearLaw::rebind(const Changes& changes) {
   criterion_->rebind(changes);
+  if (settings_.by_place) settings_.by_place->rebind();
   if (const auto& memory = settings_.change->memory) memory->rebind(changes);
 }
 
@@ -226,7 +226,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       const bool done = change_at(edit, view, n);
       if (memory) memory->settle_candidate(done);
       if (!done) continue;
-      events.push_back({.value = candidates_[n].value,
+      events.push_back({.value = candidates_[n].relative(),
                         .dart = candidates_[n].dart,
                         .place = middle_of(map, view.position, cell(n))});
       if (fragment_counter) fragment_counter->note(*edit.journal());

@@ -1,8 +1,8 @@
 // A fracture law: a criterion, a threshold and a change, combined freely (thesis 7.1). Where the criterion
 // measures cells of another kind than the change acts on, transfer.h says at which.
 //
-// Where its strength differs from place to place (strength.h), values are divided by it: those that are told,
-// as the largest value, can be compared with the threshold.
+// Where its strength differs from place to place (strength.h), the largest value and those of events are
+// relative to it, so that they can be compared with the threshold.
 //
 // A law also remembers the largest value that its criterion has reached, so that a threshold can be chosen: at
 // the steps at which it is told to look, it asks the criterion for what exceeds the largest value so far
@@ -43,7 +43,7 @@ struct LawSettings {
   Cell cell = Cell::Borders;                      // of the criterion
   std::string unit = {};                          // of the threshold
   std::shared_ptr<const ChangeType> by_rule = {}; // what `change` is then
-  std::shared_ptr<const Strength> by_place = {};  // null: the same everywhere
+  std::shared_ptr<Strength> by_place = {};        // null: the same everywhere
 };
 
 template <> const Fields<LawSettings>& fields_of();

@@ -87,6 +87,19 @@ TEST(Strength, of_parts_is_that_of_the_element_they_were_cut_from) {
   for (const double each : after) EXPECT_THAT(known, testing::Contains(testing::DoubleNear(each, 1e-14)));
 }
 
+TEST(Strength, of_each_law_is_its_own_and_its_largest_value_is_told_relative_to_it) {
+  const auto scene = strip(
+      R"(<tear criterion="vertex-stress" threshold="1e9" strength="4"/>
+         <tear criterion="vertex-stress" threshold="1e9"/>
+         <tear criterion="vertex-stress" threshold="1e9" strength="0.5" box="-1 -1 -1  3 1 1"/>)");
+  while (scene->time() < 0.2) scene->step();
+  const auto& laws = scene.body().tear_laws;
+  const double plain = laws[1].reached().value;
+  ASSERT_GT(plain, 0);
+  EXPECT_NEAR(laws[0].reached().value, plain / 4, 1e-9 * plain);
+  EXPECT_NEAR(laws[2].reached().value, plain * 2, 1e-9 * plain);
+}
+
 TEST(Strength, costs_nothing_where_nothing_asks_for_it) {
   const auto scene = strip(R"(<tear criterion="vertex-stress" threshold="2e3" change="split-vertex"/>)");
   EXPECT_EQ(scene.body().tear_laws.front().settings().by_place, nullptr);
