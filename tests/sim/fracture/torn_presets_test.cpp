@@ -103,7 +103,10 @@ bool same_events(const Body& a, const Body& b) {
 class TornPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(TornPreset, keeps_what_a_change_must_keep_and_two_threads_make_the_same_events) {
-  const int most = std::getenv("REND_WHOLE") ? std::numeric_limits<int>::max() : 12; // number of checks
+  const bool whole = std::getenv("REND_WHOLE");
+  if (!whole && GetParam() == "showcase/paper-ball")
+    GTEST_SKIP() << "its first change comes after minutes of packed contact: in tests/run --all=whole";
+  const int most = whole ? std::numeric_limits<int>::max() : 12; // number of checks
   Played run(GetParam(), 1), other(GetParam(), 2);
   std::vector<std::unique_ptr<Watch>> watches;
   for (const auto& body : run.scene.bodies())
