@@ -26,19 +26,6 @@ double clear_of_depth(const Vec3& off, const TriangleCorners& y) {
                    std::min(0.70 * distance, height / 4)});
 }
 
-// Whether they are surely farther apart than `reach` [m]: across the plane of the triangle, or beyond a side.
-bool apart_by_planes(const Segment& x, const TriangleCorners& y, double reach) {
-  const Vec3 across = (y[1] - y[0]).cross(y[2] - y[0]);
-  const auto beyond = [&](const Vec3& corner, const Vec3& normal) { // on the positive side
-    const double nearer = std::min(normal.dot(x[0] - corner), normal.dot(x[1] - corner));
-    return nearer > 0 && nearer * nearer > reach * reach * normal.squaredNorm();
-  };
-  if (beyond(y[0], across) || beyond(y[0], -across)) return true;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (beyond(y[k], (y[(k + 1) % 3] - y[k]).cross(across))) return true;
-  return false;
-}
-
 // [m], distance of a vertex from a triangle of the same body at rest.
 double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triangle& triangle) {
   const auto& rest = body.body->map->rest();
@@ -362,13 +349,8 @@ void ContactPairs::try_edge(const Neighbours& list, EdgeCandidate found) {
 
 // What was not searched, or not far enough, before vertices were pushed.
 void ContactPairs::search_further(const Bodies& bodies, const std::vector<double>& pushed) {
-  bool any = false;
-  for (std::uint32_t f = 0; f < pushed.size(); ++f) {
-    if (pushed[f] == 0) continue;
-    fragments_.reach_further(f, pushed[f]);
-    any = true;
-  }
-  if (!any) return;
+  if (std::ranges::all_of(pushed, [](double by) { return by == 0; })) return;
+  for (std::uint32_t f = 0; f < pushed.size(); ++f) fragments_.reach_further(f, pushed[f]);
   if (!all_within()) sweep(bodies);
   note_near(bodies, true);
   renew(bodies);

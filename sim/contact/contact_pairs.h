@@ -123,7 +123,7 @@ private:
   void sweep(const Bodies& bodies);
   bool all_within() const; // the boxes of the last sweep
   void keep_lists(std::vector<Neighbours>& before);
-  void note_near(const Bodies& bodies, bool further = false);
+  void note_near(const Bodies& bodies, bool further = false); // further: none searched in this step
   void renew(const Bodies& bodies);
   // of the candidates
   void drop(Neighbours& list);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -31,20 +30,6 @@ double segment_distance(const Segment& p, const Segment& q) {
     return (x - point_at(y, length > 0 ? std::clamp(way.dot(x - y[0]) / length, 0.0, 1.0) : 0)).norm();
   };
   return std::min({from(p[0], q), from(p[1], q), from(q[0], p), from(q[1], p)});
-}
-
-// What the distance of two segments is at least (Ericson, Real-Time Collision Detection, 5.1.9): of nearly
-// parallel ones, whose nearest points may be elsewhere, less by the share of a length that this may make.
-double least_distance(const Segment& p, const Segment& q) {
-  const Vec3 u = p[1] - p[0], v = q[1] - q[0], r = p[0] - q[0];
-  constexpr double none = std::numeric_limits<double>::min();
-  const double a = std::max(u.squaredNorm(), none), b = u.dot(v), c = std::max(v.squaredNorm(), none),
-               d = u.dot(r), e = v.dot(r);
-  const double across = std::max(a * c - b * b, none);
-  double s = std::clamp((b * e - c * d) / across, 0.0, 1.0);
-  const double t = std::clamp((b * s + e) / c, 0.0, 1.0);
-  s = std::clamp((b * t - d) / a, 0.0, 1.0);
-  return (r + s * u - t * v).norm() - nearly_parallel * std::sqrt(std::min(a, c));
 }
 
 BoxTree::Box span_of(const ContactBody& body, const std::array<Slot, 2>& end) {

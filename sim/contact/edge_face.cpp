@@ -21,6 +21,30 @@ std::optional<std::array<double, 2>> nearest_within(const Segment& p, const Segm
   return std::array{s, t};
 }
 
+double least_distance(const Segment& p, const Segment& q) {
+  const Vec3 u = p[1] - p[0], v = q[1] - q[0], r = p[0] - q[0];
+  constexpr double none = std::numeric_limits<double>::min();
+  const double a = std::max(u.squaredNorm(), none), b = u.dot(v), c = std::max(v.squaredNorm(), none),
+               d = u.dot(r), e = v.dot(r);
+  const double across = std::max(a * c - b * b, none);
+  double s = std::clamp((b * e - c * d) / across, 0.0, 1.0);
+  const double t = std::clamp((b * s + e) / c, 0.0, 1.0);
+  s = std::clamp((b * t - d) / a, 0.0, 1.0);
+  return (r + s * u - t * v).norm() - nearly_parallel * std::sqrt(std::min(a, c));
+}
+
+bool apart_by_planes(const Segment& x, const TriangleCorners& y, double reach) {
+  const Vec3 across = (y[1] - y[0]).cross(y[2] - y[0]);
+  const auto beyond = [&](const Vec3& corner, const Vec3& normal) { // on the positive side
+    const double nearer = std::min(normal.dot(x[0] - corner), normal.dot(x[1] - corner));
+    return nearer > 0 && nearer * nearer > reach * reach * normal.squaredNorm();
+  };
+  if (beyond(y[0], across) || beyond(y[0], -across)) return true;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (beyond(y[k], (y[(k + 1) % 3] - y[k]).cross(across))) return true;
+  return false;
+}
+
 // A corner of the triangle may be nearest to the middle of the segment: then its two sides are, at their ends.
 EdgeFaceNearest nearest(const Segment& edge, const TriangleCorners& face) {
   EdgeFaceNearest best{.distance = std::numeric_limits<double>::infinity()};

@@ -25,6 +25,14 @@ constexpr double nearly_parallel = 1e-3;
 // Real-Time Collision Detection, 5.1.9). None of parallel ones.
 std::optional<std::array<double, 2>> nearest_within(const Segment& p, const Segment& q);
 
+// A lower bound [m] of the distance of two segments (the same source): the distance that was found, less
+// nearly_parallel times the shorter length, by which it may be too large where they are nearly parallel.
+double least_distance(const Segment& p, const Segment& q);
+
+// Whether all of the segment is farther than `reach` [m] from the triangle: in front of its plane, behind it,
+// or beyond one of its sides. False says nothing.
+bool apart_by_planes(const Segment& edge, const TriangleCorners& face, double reach);
+
 // The nearest points of a segment and a triangle that it does not pass through: at an end of the segment, or on
 // a side of the triangle. Where they are of sides that are nearly parallel, the distance may be too large by
 // that share of the shorter one.

@@ -15,8 +15,8 @@ namespace rend {
 
 class SearchMargin {
 public:
-  void searched(std::size_t looks) { searched_ += looks; } // at pairs, and searches for those of one item
-  void passed(std::size_t pairs) { passed_ += pairs; }     // gone through in a step
+  void searched(std::size_t looks) { searched_ += looks; } // pairs and items that a search looked at
+  void passed(std::size_t pairs) { passed_ += pairs; }     // listed ones that a step went through
 
   // For the next search [m].
   double next(double widest) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 namespace rend::edge_face_test {
 namespace {
@@ -54,6 +55,58 @@ TEST_F(EdgeFace, what_is_less_deep_than_it_may_be_only_touches) {
   EXPECT_TRUE(through(-0.5e-3, -1)) << "hardly beside it";
   EXPECT_FALSE(through(-2e-3, -1)) << "beside it";
   EXPECT_FALSE(passes_through({Vec3(0, 0, -1), Vec3(0, 0, 1)}, {f[0], f[1], f[1]}, 0)) << "a face without area";
+}
+
+// The least of many pairs of points: not below the distance, and hardly above it.
+template <class P, class Q> double sampled_distance(const P& one, const Q& other) {
+  double least = 1e300;
+  for (const Vec3& p : one)
+    for (const Vec3& q : other) least = std::min(least, (p - q).norm());
+  return least;
+}
+
+std::vector<Vec3> points_of(const Segment& x) {
+  std::vector<Vec3> all;
+  for (int n = 0; n <= 40; ++n) all.push_back(point_at(x, n / 40.0));
+  return all;
+}
+
+std::vector<Vec3> points_of(const TriangleCorners& x) {
+  std::vector<Vec3> all;
+  for (int a = 0; a <= 20; ++a)
+    for (int b = 0; a + b <= 20; ++b)
+      all.push_back(point_at(x, Weights{a / 20.0, b / 20.0, (20 - a - b) / 20.0}));
+  return all;
+}
+
+TEST_F(EdgeFace, the_least_distance_of_segments_is_never_above_their_distance) {
+  for (int n = 0; n < 3000; ++n) {
+    const Segment p{point(), point()};
+    const bool parallel = n % 3 == 0, short_one = n % 7 == 0;
+    Segment q{point(), point()};
+    if (parallel) q[1] = q[0] + 0.7 * (p[1] - p[0]) + 1e-4 * (n % 2) * point();
+    if (short_one) q[1] = q[0];
+    const double least = least_distance(p, q), near = sampled_distance(points_of(p), points_of(q));
+    EXPECT_LE(least, near + 1e-12) << n;
+    EXPECT_GT(least, near - 0.06) << n << ": it is of use";
+  }
+}
+
+TEST_F(EdgeFace, what_planes_say_is_apart_is) {
+  int apart = 0, far = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Segment e{point(), point()};
+    const TriangleCorners f{point(), point(), point()};
+    const double near = sampled_distance(points_of(e), points_of(f)), reach = 0.1;
+    const bool says = apart_by_planes(e, f, reach);
+    EXPECT_TRUE(!says || near > reach) << n;
+    apart += says;
+    far += near > reach + 0.1;
+  }
+  EXPECT_GT(apart, far / 2) << "it is of use";
+  EXPECT_FALSE(
+      apart_by_planes({Vec3(0, 0, 1), Vec3(1, 0, 1)}, {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, 0)}, 0.1))
+      << "a face without area has no plane";
 }
 
 TEST_F(EdgeFace, the_nearest_points_are_nearer_than_any_others) {
