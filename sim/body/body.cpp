@@ -231,7 +231,8 @@ void Body::clear_sums() {
 }
 
 CriterionRequest Body::request_for(const LawSettings& law) const {
-  return {*map, interactions, *mass, law.kind, law.compression, LeastPart::of_size(law.smallest_part)};
+  return {*map,     interactions, *mass, law.kind, law.compression, LeastPart::of_size(law.smallest_part),
+          law.grain};
 }
 
 void Body::watch_all_criteria() {

@@ -31,6 +31,18 @@ void take_rule(LawSettings& law, const RuleBook& rules, const CriterionRequest& 
   law.change = law.by_rule.get();
 }
 
+void check_grain(const LawSettings& law) {
+  Grain::check(law.grain, law.source);
+  if (!law.grain.along) return;
+  if (!law.criterion->takes_grain)
+    law.source.fail("grain", fmt::format("the criterion '{}' does not use a grain", law.criterion->name),
+                    "criterion=\"vertex-stress\" looks for the weakest plane");
+  if (law.compression)
+    law.source.fail("grain",
+                    "a grain says how a body splits where it is pulled, and this law counts compression",
+                    "leave out one of them");
+}
+
 // With what is found on the body.
 LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
   check_settings(law);
@@ -41,6 +53,7 @@ LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
   if (law.compression && !law.criterion->takes_compression)
     source.fail("compression", fmt::format("the criterion '{}' does not use compression", law.criterion->name),
                 "leave it out: only stresses and strains have a sign");
+  check_grain(law);
   const CriterionRequest request = body.request_for(law);
   const NamedCriterion criterion{law.criterion, law.kind};
   law.cell = criterion.cell();

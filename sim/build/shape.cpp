@@ -6,8 +6,8 @@
 namespace rend {
 
 const std::vector<ShapeType>& all_shapes() {
-  static const std::vector<ShapeType> shapes{sheet_shape(), bar_shape(), tube_shape(), mesh_shape(),
-                                             create_shape()};
+  static const std::vector<ShapeType> shapes{sheet_shape(),   bar_shape(),  tube_shape(),
+                                             outline_shape(), mesh_shape(), create_shape()};
   return shapes;
 }
 

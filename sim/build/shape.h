@@ -1,4 +1,4 @@
-// Shapes: the mesh of a body. A <body> contains exactly one of <sheet>, <bar>, <tube> ...
+// Shapes: the mesh of a body. A <body> contains exactly one of <sheet>, <bar>, <tube>, <outline> ...
 //
 // Adding one: a struct of settings among ShapeSettings, its make_map(), a function `ShapeType my_shape()`, and
 // its name in all_shapes().
@@ -7,6 +7,7 @@
 #include "sim/base/settings.h"
 #include "sim/body/body.h"
 #include "sim/mesh/bar.h"
+#include "sim/mesh/outline_mesh.h"
 #include "sim/mesh/reader.h"
 #include "sim/mesh/sheet.h"
 #include "sim/mesh/tube.h"
@@ -51,12 +52,13 @@ struct CreateSettings {
 };
 template <> const Fields<CreateSettings>& fields_of();
 
-using ShapeSettings = std::variant<SheetShape, BarShape, TubeShape, MeshSettings, CreateSettings>;
+using ShapeSettings = std::variant<SheetShape, BarShape, TubeShape, OutlineShape, MeshSettings, CreateSettings>;
 
 // Make body.map, with its points where `place` puts them. UserError, with its place, for what cannot be built.
 void make_map(Body& body, const SheetShape& shape, const Placement& place);
 void make_map(Body& body, const BarShape& shape, const Placement& place);
 void make_map(Body& body, const TubeShape& shape, const Placement& place);
+void make_map(Body& body, const OutlineShape& shape, const Placement& place);
 void make_map(Body& body, const MeshSettings& shape, const Placement& place);
 void make_map(Body& body, const CreateSettings& shape, const Placement& place);
 
@@ -70,6 +72,7 @@ const std::vector<ShapeType>& all_shapes();
 ShapeType sheet_shape();
 ShapeType bar_shape();
 ShapeType tube_shape();
+ShapeType outline_shape();
 ShapeType mesh_shape();
 ShapeType create_shape();
 

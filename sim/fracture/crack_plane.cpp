@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -15,6 +16,17 @@ Eigen::Matrix3d squared_tension(const Eigen::Matrix3d& stress) {
     const double pull = std::max(solver.eigenvalues()[n], 0.0);
     const Vec3 axis = solver.eigenvectors().col(n);
     sum += pull * pull * axis * axis.transpose();
+  }
+  return sum;
+}
+
+// Its eigenvalues are 0 or more.
+Eigen::Matrix3d square_root_of(const Eigen::Matrix3d& tensor) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int n = 0; n < 3; ++n) {
+    const Vec3 axis = solver.eigenvectors().col(n);
+    sum += std::sqrt(std::max(solver.eigenvalues()[n], 0.0)) * axis * axis.transpose();
   }
   return sum;
 }
@@ -36,7 +48,9 @@ Vec3 CrackPlane::at(const ForceView& view, std::span<const Dart> darts) {
                        });
   }
   if (!(sum.trace() > 0)) return Vec3::Zero();
-  return largest_principal(sum / sum.trace(), Compression::Ignored).direction;
+  sum /= sum.trace();
+  if (grain_) return grain_->weakest(square_root_of(sum), view.map, view.position, darts).normal;
+  return largest_principal(sum, Compression::Ignored).direction;
 }
 
 } // namespace rend

@@ -12,11 +12,14 @@
 //   Σ m σ⁺            .      .      48.9°  .      .
 //   Σ m (σ⁺)²         21.0°  39.9°  52.5°  60.6°  69.2°
 //   hoop stress       21.1°  40.2°  53.1°  61.3°  70.5°
+//
+// With a grain (grain.h) n has the largest S over strength, S² = Σ m (σ⁺)².
 #pragma once
 
 #include "sim/fracture/criterion.h"
 #include "sim/rows/continuum.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,13 +27,15 @@ namespace rend {
 
 class CrackPlane {
 public:
-  explicit CrackPlane(const CriterionRequest& request) : continuum_(request.map, request.interactions) {}
+  explicit CrackPlane(const CriterionRequest& request)
+      : continuum_(request.map, request.interactions), grain_(Grain::of(request.grain)) {}
 
   // A unit normal; 0: nothing pulls there. `darts`: of a vertex, no element at which has changed in this edit.
   Vec3 at(const ForceView& view, std::span<const Dart> darts);
 
 private:
   Continuum continuum_;
+  std::optional<Grain> grain_;
   std::vector<Dart> corners_; // scratch: the smallest dart of each corner at the vertex
 };
 

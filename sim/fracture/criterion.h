@@ -7,6 +7,7 @@
 
 #include "sim/cuts/least_part.h"
 #include "sim/fracture/cell.h"
+#include "sim/fracture/grain.h"
 #include "sim/rows/program.h"
 
 #include <functional>
@@ -69,6 +70,7 @@ struct CriterionRequest {
   std::string kind;          // of springs: "stretch", "shear", "bend"; empty: not given
   bool compression = false;  // negative eigenvalues count too
   LeastPart least_part = {}; // that a cut leaves
+  GrainSettings grain = {};  // of the body, as the law sees it
 };
 
 struct CriterionType {
@@ -82,6 +84,7 @@ struct CriterionType {
   bool by_sums = false;                // elementary, but works with ForceView::corner_buffer
   std::vector<std::string> kinds = {}; // of springs that it takes; "": may be left out; empty: none
   bool takes_compression = false;      // which settings of the request it uses
+  bool takes_grain = false;            // likewise
   std::string (*unit_there)(const CriterionRequest&) = nullptr; // null: `unit` for every body
   // Why it has no meaning with this kind in sheets (2) or solids (3), whatever the body, as a sentence that
   // goes on after its name; empty: it has one. Null: it always has.

@@ -69,7 +69,7 @@ template <> const Fields<LawSettings>& fields_of() {
           field(
               &S::max_per_step,
               integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))} +
-      fields_of_part(&S::strength);
+      fields_of_part(&S::strength) + fields_of_part(&S::grain);
   return fields;
 }
 

@@ -35,6 +35,7 @@ struct LawSettings {
   std::string rule = {};              // instead of a change: the name of a rule; empty: none
   double smallest_part = LeastPart{}.size;
   StrengthSettings strength = {};
+  GrainSettings grain = {};
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
   SettingsSource source = {};

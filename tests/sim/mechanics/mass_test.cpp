@@ -1,10 +1,10 @@
 // Masses against sums over polygons and over particles.
 #include "sim/mechanics/mass.h"
 
+#include "sim/house_rules/house_rules.h"
 #include "sim/mesh/bar.h"
 #include "sim/mesh/tube.h"
 #include "sim/random_meshes.h"
-#include "sim/house_rules/house_rules.h"
 #include "sim/rules/apply.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace meshes;
 
-double area_of(const PolygonMesh& mesh) { // of flat polygons
+double flat_area_of(const PolygonMesh& mesh) { // of flat polygons
   double area = 0;
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
     Vec3 sum = Vec3::Zero();
@@ -38,7 +38,7 @@ TEST(Mass, of_all_corners_is_the_density_times_the_area) {
        {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
     const PolygonMesh mesh = flat(pattern, 3);
     const auto body = meshes::body(mesh);
-    EXPECT_NEAR(total_mass(*body->map, *body->mass), 0.1 * area_of(mesh), 1e-14);
+    EXPECT_NEAR(total_mass(*body->map, *body->mass), 0.1 * flat_area_of(mesh), 1e-14);
   }
 }
 
