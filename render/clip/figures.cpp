@@ -141,6 +141,7 @@ std::vector<ReachFigures> reach_of(const Scene& scene) {
       all.push_back({.body = body->name,
                      .criterion = NamedCriterion{settings.criterion, settings.kind}.name(),
                      .unit = settings.unit,
+                     .look_every = body->look_every,
                      .reached = law.reached()});
     }
   return all;

@@ -42,6 +42,7 @@ struct LawFigures {
 struct ReachFigures {
   std::string body, criterion; // with the kind of springs
   std::string unit;
+  long look_every = 1; // steps
   Reached reached;
 };
 

@@ -25,6 +25,7 @@ Json json_of(const ReachFigures& reach) {
   return {{"body", reach.body},
           {"criterion", reach.criterion},
           {"unit", reach.unit},
+          {"look_every", reach.look_every},
           {"reached", json_of(reach.reached)}};
 }
 

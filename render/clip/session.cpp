@@ -94,9 +94,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
                                                 .set_between_steps = false,
                                                 .guard = options.guard,
                                                 .reach = options.reach,
+                                                .look_every = options.reach_every,
                                                 .profile = options.profile});
-  if (options.reach)
-    for (const auto& body : scene_->bodies()) body->look_every = options.reach_every;
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();

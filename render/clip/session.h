@@ -24,12 +24,12 @@ struct SessionOptions {
   int threads = 0;               // 0: as many as the machine has
   std::string kernels = "flat";  // or walk
   bool quiet = false;
-  bool allow_path = false;      // meshes, rules, pictures may lie outside the preset's folder
-  bool guard = true;            // bad steps are rolled back and redone in substeps
-  bool count_fragments = false; // events record how many fragments there are
-  bool reach = false;           // largest values of all criteria, without tearing
-  long reach_every = 1;         // steps between looks at them
-  bool profile = false;         // the time of each stage of the step is measured
+  bool allow_path = false;         // meshes, rules, pictures may lie outside the preset's folder
+  bool guard = true;               // bad steps are rolled back and redone in substeps
+  bool count_fragments = false;    // events record how many fragments there are
+  bool reach = false;              // largest values of all criteria, without tearing
+  std::optional<long> reach_every; // steps between looks at them
+  bool profile = false;            // the time of each stage of the step is measured
 };
 void add_preset_options(const CommandLine& app, SessionOptions& options); // the preset and --set
 void add_run_options(const CommandLine& app,

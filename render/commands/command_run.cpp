@@ -147,10 +147,11 @@ std::function<Exit()> declare_run(const CommandLine& app) {
       "--reach", options->session.reach,
       "do not tear: print the largest value that each criterion of tearing reaches, when and where, to "
       "choose a threshold by");
-  app.add_option("--reach-every", options->session.reach_every,
-                 "with --reach: look at every Nth step only, which is quicker; values may come out too low")
+  app.add_option(
+         "--reach-every", options->session.reach_every,
+         "with --reach: look at every Nth step; more seldom is quicker, and values may come out too low; "
+         "without it, at every 256th, in short clips more often")
       .type_name("N")
-      .show_default()
       .transform(whole_number(1, 1000000));
   app.add_flag("--profile", options->session.profile,
                "also print where the time and the memory traffic went, by stage and by interaction");

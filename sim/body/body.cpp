@@ -52,10 +52,10 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
   options.walk = settings.walk;
-  sums_ = elementary && sums_available(interactions, options) && awaited.only(spring_law()) &&
+  sums_ = elementary && !watches_ && sums_available(interactions, options) && awaited.only(spring_law()) &&
           std::all_of(tear_laws.begin(), tear_laws.end(),
                       [](const TearLaw& law) { return !law.elementary() || law.by_sums(); });
-  options.folded = !elementary || scheme.evaluations > 1 || sums_;
+  options.folded = !elementary || scheme.evaluations > 1 || sums_ || watches_;
   options.threads = settings.threads;
   options.timed = profile && profile->every_step();
   options.parallel_small_bodies = parallel_small_bodies;
@@ -180,7 +180,7 @@ void Body::evaluate() {
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   if (sums_)
     program->forces_with_sums(x, v, force.data());
-  else if (corner_force.empty())
+  else if (corner_force.empty() || watches_)
     program->forces(x, v, force.data());
   else
     program->corner_forces(x, v, corner_force.data(), force.data());
@@ -236,6 +236,7 @@ CriterionRequest Body::request_for(const LawSettings& law) const {
 }
 
 void Body::watch_all_criteria() {
+  watches_ = true;
   tear_laws.clear();
   const int dimension = map->dimension();
   for (const NamedCriterion& criterion : named_criteria()) {
@@ -253,7 +254,17 @@ void Body::watch_all_criteria() {
   }
 }
 
+void Body::measure_elements() {
+  if (corner_force.empty()) return;
+  thread_local std::vector<Record> sums; // those of `force`, up to round-off
+  sums.resize(force.size());
+  program->corner_forces(map->position().values().data(), map->velocity().values().data(), corner_force.data(),
+                         sums.data());
+}
+
 int Body::tear(double time, long number, const std::function<void()>& sound) {
+  if (watches_ && number % look_every != 0) return 0;
+  if (watches_) measure_elements();
   const std::size_t before = events.size();
   int made = 0;
   for (std::size_t n = 0; n < tear_laws.size(); ++n)

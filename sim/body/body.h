@@ -179,9 +179,11 @@ private:
   void rebind_solved_contact();
   void reserve_for_separations();
   void clear_sums();
+  void measure_elements();         // corner_force, of a body that only watches
   std::vector<Record> kick_force_; // [N], scratch
   bool forces_deferred_ = false;
-  bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
+  bool watches_ = false; // its laws have no threshold: nothing tears, and corner_force is that of the last look
+  bool sums_ = false;    // `force` carries Program::forces_with_sums(), and corner_force is only room
   double time_ = 0, next_time_ = 0;    // [s], of the current state and of `next`
   double last_step_ = 0;               // [s], that led to the current state; 0: none
   std::unique_ptr<Boundary> boundary_; // null: nobody asked for it
