@@ -112,7 +112,7 @@ private:
 
 TornSides::OfBody TornSides::list(const ContactBody& body) {
   OfBody of;
-  if (!body.faces || !body.settings().fragments || !body.body->border) return of;
+  if (!body.faces || !body.settings().fragments || (body.solid() && !body.body->border)) return of;
   Body& own = *body.body;
   Pairing pairing(body, of);
   if (body.solid()) {
@@ -121,10 +121,10 @@ TornSides::OfBody TornSides::list(const ContactBody& body) {
     });
   } else {
     const GMap& map = own.map->map();
-    const CellIndex &vertex = own.map->cells(Vertex), &side = own.map->cells(EdgeOfFace);
+    const CellIndex& vertex = own.map->cells(Vertex);
     map.for_each_dart([&](Dart d) {
       const Dart e = map.alpha(0, d), beyond = map.alpha(0, map.alpha(1, d));
-      if (d < e && map.is_free(2, d) && (*own.border)[side.slot(d)] == 0)
+      if (d < e && map.is_free(2, d))
         pairing.add(std::array{vertex.slot(d), vertex.slot(e)}, vertex.slot(beyond));
     });
   }

@@ -3,9 +3,9 @@
 //
 // They lie on each other when the crack opens. Their distance is 0, and its direction does not tell on which
 // side each of them is; vertices against faces (fragment_contact.h) know that only of different fragments of
-// solids. So the sides are kept apart by a sign. Two sides were one if fracture has laid both bare and their
-// corners lie at the same places at rest. With the outward normals of both at the start of the step, m of the
-// one and m' of the other, its corners x and those x' where these lie at rest,
+// solids. So the sides are kept apart by a sign. Two sides were one if their corners lie at the same places at
+// rest, and in solids if fracture has laid both bare; in sheets those of slits count as well. With the outward
+// normals of both at the start of the step, m of the one and m' of the other, and corners x and x' there,
 //
 //   n = (m' − m)/|m' − m|,   gap = n·(x − x')
 //

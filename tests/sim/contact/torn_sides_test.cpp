@@ -2,12 +2,15 @@
 // hang together, part freely, and keep momentum.
 #include "sim/contact/torn_sides.h"
 
+#include "sim/mechanics/interaction.h"
 #include "sim/presets.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace rend::torn_sides_test {
 namespace {
@@ -179,6 +182,88 @@ TEST(TornSides, of_sheets_that_lie_on_each_other_are_not_pushed_apart_along_them
     if (left[n]) x[n].y += 0.005;
   push(scene, {0.5, 0, 0});
   EXPECT_LT(least_opening(scene, 60), -0.025);
+}
+
+// A sheet of triangles that stands upright, 0.2 x 0.1 m, `more` of it.
+presets::Loaded triangles(const std::string& more, const std::string& contact) {
+  return presets::load(
+      R"(<scene><body><sheet pattern="triangles" cells="8 4" corners="0 0 0  0.2 0 0  0.2 0 0.1  0 0 0.1"/>
+         <mass density="1000" thickness="0.001"/>
+         <elasticity model="corotational" young="2e4" poisson="0.3" thickness="0.001"
+          damping-stiffness="1e-3"/>)" +
+      more + contact +
+      R"(</body><world gravity="0 0 0"/><time integrator="symplectic" step="2e-4" duration="1"/></scene>)");
+}
+
+// [m]: how deep a vertex is within a face that does not have it, at most, in the plane of the sheet.
+double overlap(const Body& body) {
+  const auto& x = body.map->position();
+  std::vector<std::array<Slot, 3>> faces;
+  for_each_face(*body.map, [&](Dart first) {
+    faces.push_back({});
+    Dart d = first;
+    for (Slot& corner : faces.back()) {
+      corner = body.map->vertex(d);
+      d = body.map->map().alpha(1, body.map->map().alpha(0, d));
+    }
+  });
+  double most = 0;
+  for (const auto& face : faces)
+    for (Slot v = 0; v < body.vertices(); ++v) {
+      if (v == face[0] || v == face[1] || v == face[2]) continue;
+      double depth = 1e300;
+      const auto across = [&](Slot a, Slot b, Slot c) { // from the side a b
+        return ((x[b].x - x[a].x) * (x[c].z - x[a].z) - (x[b].z - x[a].z) * (x[c].x - x[a].x)) /
+               std::hypot(x[b].x - x[a].x, x[b].z - x[a].z);
+      };
+      const double turn = across(face[0], face[1], face[2]) > 0 ? 1 : -1;
+      for (std::size_t k = 0; k < 3; ++k) depth = std::min(depth, turn * across(face[k], face[(k + 1) % 3], v));
+      most = std::max(most, depth);
+    }
+  return most;
+}
+
+double most_overlap(const presets::Loaded& scene, int steps) {
+  double most = 0;
+  for (int n = 0; n < steps; ++n) {
+    scene->step();
+    most = std::max(most, overlap(scene.body()));
+  }
+  return most;
+}
+
+// Each end goes towards the other [m/s].
+void press(const presets::Loaded& scene, double speed) {
+  const auto& rest = scene.body().map->rest();
+  Record* v = scene.body().map->velocity().values().data();
+  for (Slot n = 0; n < scene.body().vertices(); ++n) v[n] = Record(rest[n].x < 0.1 ? speed : -speed, 0, 0);
+}
+
+TEST(TornSides, of_a_slit_do_not_pass_when_they_are_pushed_together) {
+  for (const char* along :
+       {"0.095 0 -0.01  0.105 0 0.11", "0.07 0 -0.01  0.13 0 0.11", "0.13 0 -0.01  0.08 0 0.06"}) {
+    const std::string slit = fmt::format(R"(<slit along="{}"/>)", along);
+    const auto with = triangles(slit, fragments), without = triangles(slit, none);
+    for (const presets::Loaded* scene : {&with, &without}) press(*scene, 0.3);
+    EXPECT_LT(most_overlap(with, 200), 2e-4) << along;
+    EXPECT_GT(most_overlap(without, 200), 5e-4) << along;
+  }
+}
+
+TEST(TornSides, of_a_crack_that_was_cut_do_not_pass_when_they_are_pushed_together) {
+  const std::string cuts = R"(<slit along="0.09 0 -0.01  0.09 0 0.03"/>
+      <tear criterion="vertex-stress" threshold="2e3" change="cut"/>)";
+  const auto with = triangles(cuts, fragments), without = triangles(cuts, none);
+  for (const presets::Loaded* each : {&with, &without}) {
+    const presets::Loaded& scene = *each;
+    press(scene, -0.5);
+    for (int n = 0; n < 300 && count_cells(scene.body().map->map()).fragments < 2; ++n) scene->step();
+    EXPECT_EQ(count_cells(scene.body().map->map()).fragments, 2u);
+    press(scene, 0.5);
+  }
+  EXPECT_LT(most_overlap(with, 300), 1e-4);
+  EXPECT_GT(with->contacts()->torn_sides()->pairs(), 3u);
+  EXPECT_GT(most_overlap(without, 300), 2e-3);
 }
 
 TEST(TornSides, cost_nothing_where_nothing_has_torn) {
