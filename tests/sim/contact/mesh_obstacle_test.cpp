@@ -1,4 +1,5 @@
 // Contact with obstacles that are meshes: as with the box or sphere of the same shape, and never passed.
+#include "sim/base/archive.h"
 #include "sim/heaps.h"
 #include "sim/mesh_files.h"
 
@@ -201,6 +202,56 @@ TEST(MeshObstacle, is_told_by_the_work_meter_as_touched) {
   EXPECT_FALSE(falls.body().work_meter->touched(falls->world().number_of_sphere(0)));
 }
 
+// Its coefficient of restitution, and where it is.
+const std::string flat = R"(<sheet cells="3 3" size="0.3 0.3"/><mass total="0.1"/>
+    <springs><stretch k="60"/></springs><contact thickness="0.002" restitution="{}"/><place translate="{}"/>)";
+
+TEST(MeshObstacle, gives_back_the_share_e_of_the_speed_with_which_it_is_struck) {
+  const std::string file = mesh_files::box("struck.obj", {-1, -1, -0.5}, {1, 1, 0});
+  for (const double e : {0.0, 0.5, 0.9})
+    for (const double own : {0.0, -1.5, 1.0}) { // [m/s], of the obstacle
+      const std::string above = fmt::format(fmt::runtime(flat), e, R"(-0.1 -0.1 0.1" velocity="0 0 -4)");
+      const Loaded falls =
+          presets::load(scene(above, obstacle(file, fmt::format(R"(velocity="0 0 {}")", own)), "0 0 0"));
+      run(falls, 0.1);
+      for (const Record& v : falls.body().map->velocity().values())
+        EXPECT_NEAR(v.z, own + e * (4 + own), 1e-9) << e << " " << own;
+    }
+}
+
+TEST(MeshObstacle, has_restitution_of_its_own) {
+  const std::string file = mesh_files::box("springy.obj", {-1, -1, -0.5}, {1, 1, 0});
+  const std::string above = fmt::format(fmt::runtime(flat), 0.2, R"(-0.1 -0.1 0.1" velocity="0 0 -4)");
+  const Loaded falls = presets::load(scene(above, obstacle(file, R"(restitution="0.7")"), "0 0 0"));
+  run(falls, 0.1);
+  EXPECT_NEAR(mean(falls.body().map->velocity().values()).z(), 0.7 * 4, 1e-9);
+}
+
+// A cube of six tetrahedra about its diagonal, of Gmsh's format 2.2.
+std::string solid_cube(const Vec3& low, const Vec3& high) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n";
+  const std::vector<Vec3> points = mesh_files::corners_of_box(low, high);
+  for (std::size_t n = 0; n < 8; ++n)
+    text += fmt::format("{} {} {} {}\n", n + 1, points[n].x(), points[n].y(), points[n].z());
+  text += "$EndNodes\n$Elements\n6\n";
+  constexpr std::array<std::array<int, 4>, 6> cells{
+      {{1, 2, 4, 8}, {1, 4, 3, 8}, {1, 3, 7, 8}, {1, 7, 5, 8}, {1, 5, 6, 8}, {1, 6, 2, 8}}};
+  int number = 0;
+  for (const auto& [a, b, c, d] : cells) text += fmt::format("{} 4 2 1 1 {} {} {} {}\n", ++number, a, b, c, d);
+  return mesh_files::written("solid.msh", text + "$EndElements\n");
+}
+
+TEST(MeshObstacle, that_is_read_from_a_solid_holds_a_lump_as_its_surface_does) {
+  const std::string above = lump + R"(<place rotate="0 0 20" translate="-0.1 -0.1 0.51"/>)";
+  const Vec3 low(-0.5, -0.5, 0), high(0.5, 0.5, 0.5);
+  const Loaded surface = presets::load(scene(above, obstacle(mesh_files::box("skin.obj", low, high)))),
+               solid = presets::load(scene(above, obstacle(solid_cube(low, high))));
+  EXPECT_EQ(solid->world().meshes.front().surface.triangles.size(), 12u);
+  for (const Loaded* one : {&surface, &solid}) run(*one, 1.5);
+  EXPECT_NEAR(mean_position(solid).z(), mean_position(surface).z(), 1e-4);
+  EXPECT_NEAR(mean_position(solid).z(), 0.6, 0.01);
+}
+
 std::string refusal_of(const std::string& preset) {
   try {
     presets::load(preset);
@@ -245,6 +296,26 @@ std::string surroundings(bool turning) {
       mesh_files::obj({{0.5, -0.3, 0.05}, {1, -0.3, 0.35}, {1, 1, 0.35}, {0.5, 1, 0.05}}, {{0, 1, 2, 3}}));
   const std::string motion = turning ? R"(rotate="0.3 0.2 1 90" centre="0.3 0.3 0")" : "";
   return R"(<world gravity="0 0 -9.81">)" + obstacle(cube, motion) + obstacle(wall, motion) + "</world>";
+}
+
+TEST(MeshObstacle, that_moves_goes_on_from_a_stored_state_bit_for_bit) {
+  const std::string preset = heaps::heap(3, surroundings(true));
+  const Loaded whole = presets::load(preset), again = presets::load(preset);
+  for (int n = 0; n < 2400; ++n) whole->step();
+  EXPECT_TRUE(std::ranges::any_of(whole->bodies(), [&](const auto& body) {
+    return body->work_meter->touched(whole->world().number_of_mesh(0)) ||
+           body->work_meter->touched(whole->world().number_of_mesh(1));
+  }));
+  for (int n = 0; n < 2900; ++n) again->step(); // what it has listed there is of no use
+  Archive written;
+  whole->store(written);
+  Archive read(std::span<const std::uint8_t>(written.bytes()));
+  again->store(read);
+  for (int n = 0; n < 400; ++n) {
+    whole->step();
+    again->step();
+  }
+  EXPECT_EQ(whole->hash(), again->hash());
 }
 
 TEST(MeshObstacle, is_never_crossed_by_random_heaps) {
