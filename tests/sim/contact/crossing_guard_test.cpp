@@ -97,6 +97,42 @@ TEST(CrossingGuard, keeps_a_face_out_of_a_box_that_is_thinner) {
   }
 }
 
+// A sheet of 1 mm that is held at its sides, and a small one that strikes it with 100 m/s: 2 cm a step.
+TEST(CrossingGuard, keeps_a_thin_sheet_from_one_that_is_fast) {
+  const auto sheet = [](const std::string& name, int cells, double size, const std::string& more) {
+    return fmt::format(R"(<body name="{}"><sheet pattern="triangles" cells="{} {}" size="{} {}"/>)"
+                       R"(<mass density="1000" thickness="0.001"/><elasticity model="corotational" young="1e7")"
+                       R"( poisson="0.3" thickness="0.001" damping-stiffness="1e-5"/>{})"
+                       R"(<contact with="fragments self" thickness="0.001"/></body>)",
+                       name, cells, cells, size, size, more);
+  };
+  const std::string held = sheet("held", 8, 0.4,
+                                 R"(<fix side="-x"/><fix side="+x"/><fix side="-y"/><fix side="+y"/>)"
+                                 R"(<place translate="-0.2 -0.2 0"/>)");
+  for (const char* turn : {"2 1 30", "87 2 30", "0 0 0", "45 45 0"}) {
+    const auto scene = presets::load(
+        "<scene>" + held +
+        sheet("fast", 3, 0.12,
+              fmt::format(R"(<place rotate="{}" translate="-0.04 -0.08 0.13" velocity="0 0 -100"/>)", turn)) +
+        R"(<world gravity="0 0 0"/><time integrator="symplectic" step="2e-4" duration="1"/></scene>)");
+    const auto highest_speed = [&] { // [m/s], downwards, of the fast one
+      double most = 0;
+      for (const Record& v : scene.body(1).map->velocity().values()) most = std::max(most, -v.z);
+      return most;
+    };
+    for (int n = 0; n < 40; ++n) {
+      scene->step();
+      ASSERT_EQ(crossings(*scene.scene), 0) << turn << ", step " << n;
+    }
+    const auto& held_x = scene.body(0).map->position();
+    double lowest = 0;
+    for (const Record& x : held_x.values()) lowest = std::min(lowest, x.z);
+    EXPECT_LT(lowest, -0.02) << turn << ": it was struck";
+    EXPECT_LT(highest_speed(), 60) << turn << ": nothing of the other has gone on";
+    EXPECT_EQ(scene->contacts()->guard()->figures().left, 0) << turn;
+  }
+}
+
 // What the run says that ends when `preset` is advanced by 2000 steps; empty: it does not end.
 std::string end_of(const std::string& preset) {
   const auto scene = presets::load(preset);
