@@ -57,9 +57,10 @@ public:
   // Also one that has no negative gap yet, since others may push it there.
   void require(const ContactConstraint& contact);
   bool empty() const { return contacts_.empty(); }
-  void solve(double step); // [s]
-  void take_back();        // what solve() has changed, so that it can be called again with more contacts
-  void account() const;    // once solved: what contact took, to the meters of bodies and spheres
+  const std::vector<ContactConstraint>& contacts() const { return contacts_; } // of this step, as added
+  void solve(double step);                                                     // [s]
+  void take_back();     // what solve() has changed, so that it can be called again with more contacts
+  void account() const; // once solved: what contact took, to the meters of bodies and spheres
 
   // Calls f(body, vertex, Δu [m/s]) for each vertex that it has changed.
   template <class F> void each_change(const F& f) const {

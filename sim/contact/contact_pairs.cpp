@@ -89,7 +89,8 @@ void ContactPairs::sweep(const Bodies& bodies) {
     const std::size_t begin = neighbours_.size();
     tree.each_in(swept_[a], [&](std::uint32_t b) {
       const bool wanted = a < b || (a == b && body.settings().self);
-      if (wanted && body.meets(*bodies[all[b].body])) neighbours_.push_back({a, b});
+      if (wanted && body.meets(*bodies[all[b].body]))
+        neighbours_.push_back({.a = a, .b = b, .margin = margin_});
     });
     std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(begin), neighbours_.end(),
               [](const Neighbours& x, const Neighbours& y) { return x.b < y.b; });

@@ -64,8 +64,9 @@ class ContactPairs {
 public:
   using Bodies = ContactBodies;
 
-  // `edges`: pairs of edges and faces are listed as well.
-  explicit ContactPairs(bool edges = false) : fragments_(edges), edges_(edges) {}
+  // `edges`: pairs of edges and faces are listed as well. `margin`: that of any two in their first search.
+  explicit ContactPairs(bool edges = false, SearchMargin margin = {})
+      : fragments_(edges), edges_(edges), margin_(margin) {}
 
   // The pairs that may touch within this step, sorted by body, vertex, body of the face, triangle. For bodies
   // with contact of fragments: pairs of different bodies that do not exclude each other, and of different
@@ -161,6 +162,7 @@ private:
   std::vector<ContactPair> pairs_;     // of this step, sorted
   std::vector<EdgeFacePair> crossing_; // of this step
   long sweeps_ = 0, searches_ = 0;
+  SearchMargin margin_; // of two neighbours when they become such
 };
 
 } // namespace rend

@@ -1,4 +1,5 @@
-// Detection of contact between bodies, and with `self` within one, at the end of a step: edges against edges.
+// Detection of contact between bodies, with mesh obstacles, and with `self` within one, at the end of a step:
+// edges against edges.
 // (Vertices against faces, which see what edges do only where cells are small: fragment_contact.h.)
 //
 // For the nearest points p and q of two edges at the start of the step, both between the ends of their edges,
@@ -36,15 +37,15 @@ class EdgeContact {
 public:
   // Of bodies with each other, or with obstacles: what moves past an obstacle is then searched for there alone.
   enum class With { Bodies, Obstacles };
-  explicit EdgeContact(With with = With::Bodies) : with_(with) {}
+  explicit EdgeContact(With with = With::Bodies, SearchMargin margin = {}) : with_(with), margin_(margin) {}
 
   // Whether two of them can touch, or one itself. Their names are resolved (contact_names.h).
   static bool is_asked_for(const ContactPairs::Bodies& bodies, With with = With::Bodies);
 
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
-  void forget() { *this = EdgeContact(with_); }       // what was listed: after a state was read
-  std::size_t pairs() const { return pairs_.size(); } // candidates in the last step
+  void forget() { *this = EdgeContact(with_, margin_.anew()); } // what was listed: after a state was read
+  std::size_t pairs() const { return pairs_.size(); }           // candidates in the last step
   long searches() const { return searches_; }
   std::size_t bytes() const;
 
