@@ -38,11 +38,18 @@ public:
     const Contacts* contacts = scene_.contacts();
     if (!contacts) return;
     for (const auto& each : contacts->bodies())
-      if (each->body && each->faces)
-        add(PassStage::Contact, "obstacles, and " + each->body->name, each->faces->triangles().size(),
-            "triangles", 1, each->bytes());
+      if (each->faces)
+        add(PassStage::Contact,
+            each->body ? "obstacles, and " + each->body->name : scene_.world().called(each->obstacle->number),
+            each->faces->triangles().size(), "triangles", 1, each->bytes());
+    if (const TornSides* torn = contacts->torn_sides(); torn && torn->pairs() > 0)
+      add(PassStage::Contact, "torn sides", torn->pairs(), "pairs", 1, torn->bytes());
     if (const FragmentContact* fragments = contacts->fragments())
       add(PassStage::Contact, "fragments and bodies", fragments->pairs(), "pairs", 1, fragments->bytes());
+    if (const EdgeContact* edges = contacts->edges())
+      add(PassStage::Contact, "edges", edges->pairs(), "pairs", 1, edges->bytes());
+    if (const EdgeContact* edges = contacts->obstacle_edges())
+      add(PassStage::Contact, "edges, and those of obstacles", edges->pairs(), "pairs", 1, edges->bytes());
   }
 
 private:

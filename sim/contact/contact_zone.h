@@ -22,9 +22,9 @@
 
 namespace rend {
 
-// A vertex, by the index of its body; or a box, by its index in the world.
+// A vertex, by the index of its body or mesh obstacle; or a box, by its index in the world.
 struct ZonePart {
-  std::uint32_t body = 0; // index
+  std::uint32_t body = 0; // index into ContactBodies
   std::uint32_t number = 0;
   static constexpr std::uint32_t box = ~std::uint32_t{0}; // in place of the index
   bool is_box() const { return body == box; }

@@ -1,7 +1,7 @@
 // All contacts of a scene, at the end of each step, after every body has been advanced by itself:
 //
-//   detect       floor, spheres and boxes (obstacle_contact.h), bodies and fragments (fragment_contact.h,
-//                edge_contact.h), the sides of cracks (torn_sides.h)
+//   detect       floor, spheres and boxes (obstacle_contact.h), bodies, mesh obstacles and fragments
+//                (fragment_contact.h, edge_contact.h), the sides of cracks (torn_sides.h)
 //   constraints  of one kind (contact_constraint.h)
 //   answer       by impulses, all at once (contact_answer.h)
 //   guard        what would go through each other nevertheless (crossing_guard.h)
@@ -38,6 +38,7 @@ public:
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
   const TornSides* torn_sides() const { return torn_.get(); } // null: as there, or a scheme that solves
   const EdgeContact* edges() const { return edges_.get(); }   // null: edges of none can touch
+  const EdgeContact* obstacle_edges() const { return obstacle_edges_.get(); } // null: none meets a mesh
   const CrossingGuard* guard() const { return guard_.get(); } // null: the floor alone, or a scheme that solves
   long searches() const;                                      // for pairs of any kind, so far
   bool with_faces() const; // some body can touch more than the floor, or there are spheres

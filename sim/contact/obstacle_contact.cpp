@@ -339,6 +339,13 @@ void ObstacleContact::detect_around(Sphere& sphere, ContactAnswer& answer) {
     if (!other.falls() || &sphere < &other) detect_pair(sphere, other, answer);
 }
 
+std::size_t ObstacleContact::bytes() const {
+  std::size_t sum = bytes_of(codes_) + bytes_of(sphere_steps_) + bytes_of(box_steps_) + bytes_of(meshes_) +
+                    bytes_of(mesh_steps_);
+  for (const StandingMesh& mesh : meshes_) sum += mesh.tree.bytes();
+  return sum;
+}
+
 // Calls add(plane, mesh, velocity of its surface there).
 template <class Add> void ObstacleContact::detect_on_meshes(const Sphere& sphere, const Add& add) const {
   for (std::size_t m = 0; m < meshes_.size(); ++m) {

@@ -52,7 +52,7 @@ public:
   std::size_t number_of(const BoxCrossing& crossing) const { return world_.number_of_box(crossing.box); }
   // [m], where a point of a box is at the end of the step that is at `from` [m] at its start.
   Vec3 carried(std::size_t box, const Vec3& from) const;
-  std::size_t bytes() const { return bytes_of(codes_) + bytes_of(sphere_steps_) + bytes_of(box_steps_); }
+  std::size_t bytes() const;
 
 private:
   const RigidStep* step_of(const Sphere& sphere) const; // null: it does not turn

@@ -34,7 +34,7 @@ bool ObstacleVertices::lies_behind(const Vec3& x, double depth) const {
 }
 
 std::size_t ObstacleVertices::bytes() const {
-  return bytes_of(from) + bytes_of(position) + bytes_of(velocity);
+  return bytes_of(from) + bytes_of(position) + bytes_of(velocity) + (inside_ ? inside_->tree.bytes() : 0);
 }
 
 } // namespace rend

@@ -157,4 +157,11 @@ std::vector<SurfaceTree::Crossing> SurfaceTree::crossings(const Vec3& from, cons
   return found;
 }
 
+// Eigen's tree tells nothing of itself: for n triangles it has their n indices and n − 1 nodes, each a box with
+// the indices of its two children.
+std::size_t SurfaceTree::bytes() const {
+  const std::size_t triangles = corners_.size(), nodes = triangles > 0 ? triangles - 1 : 0;
+  return bytes_of(corners_) + triangles * sizeof(std::uint32_t) + nodes * (sizeof(Bounds) + 2 * sizeof(int));
+}
+
 } // namespace rend

@@ -40,6 +40,7 @@ public:
   Vec3 normal(std::uint32_t triangle) const;                                                  // unit, or 0
   bool solid() const { return solid_; }
   std::size_t triangles() const { return corners_.size(); }
+  std::size_t bytes() const;
 
 private:
   using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;

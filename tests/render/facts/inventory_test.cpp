@@ -24,10 +24,14 @@ std::size_t on_heap() {
   return info.uordblks + info.hblkhd;
 }
 
+std::string path_of(const std::string& preset) {
+  return std::string(test::source_root) + "/presets/" + preset;
+}
+
 struct Built {
   explicit Built(const std::string& preset, std::vector<std::string> sets = {}) {
     SessionOptions options;
-    options.preset = std::string(test::source_root) + "/presets/" + preset;
+    options.preset = path_of(preset);
     options.sets = std::move(sets);
     options.quiet = true;
     options.threads = 1;
@@ -111,6 +115,30 @@ TEST(Inventory, of_a_step_has_each_interaction_as_often_as_the_scheme_evaluates)
     if (pass["of"] == "rows") evaluations[pass["what"]] += pass["times"].get<double>();
   EXPECT_EQ(evaluations,
             (std::map<std::string, double>{{"stretch", 4}, {"shear isotropic", 4}, {"bend provot", 4}}));
+}
+
+TEST(Inventory, of_a_step_names_what_contact_goes_through) {
+  const Json info =
+      Json::parse(program::TestFolder().rend("info '" + path_of("showcase/statue.xml") + "' --json").out);
+  std::map<std::string, std::string> counted;
+  for (const Json& pass : info["step"])
+    if (pass["stage"] == "contact") counted[pass["what"]] = pass["of"];
+  EXPECT_EQ(counted, (std::map<std::string, std::string>{{"the floor", "vertices"},
+                                                         {"obstacles, and cloth", "triangles"},
+                                                         {"obstacle 'statue'", "triangles"},
+                                                         {"fragments and bodies", "pairs"},
+                                                         {"edges", "pairs"},
+                                                         {"edges, and those of obstacles", "pairs"}}));
+}
+
+TEST(Inventory, of_a_step_names_torn_sides_where_there_are_some) {
+  const program::TestFolder place;
+  place.write("slit.xml", R"xml(<scene name="slit"><body><sheet pattern="triangles" cells="4 4" size="1 1"/>
+    <slit along="0.5 0.2 0  0.5 0.8 0"/><mass total="1"/><springs><stretch k="10"/></springs>
+    <contact with="fragments"/></body><time duration="0.1"/></scene>)xml");
+  const Json info = Json::parse(place.rend("info slit.xml --json").out);
+  EXPECT_THAT(info["step"],
+              Contains(testing::Truly([](const Json& pass) { return pass["what"] == "torn sides"; })));
 }
 
 // All of a sheet is one place of quarter-faces; then there are 16 faces, and 64.

@@ -252,6 +252,24 @@ TEST(MeshObstacle, that_is_read_from_a_solid_holds_a_lump_as_its_surface_does) {
   EXPECT_NEAR(mean_position(solid).z(), 0.6, 0.01);
 }
 
+// Closed ones, and all that a sphere may fall on, are in a tree: nine coordinates and more a triangle.
+TEST(MeshObstacle, counts_the_bytes_of_its_tree) {
+  const std::string wall = mesh_files::written(
+      "counted.obj", mesh_files::obj(mesh_files::corners_of_box({-1, -1, -1}, {1, 1, 0}),
+                                     {mesh_files::quads_of_box.begin(), mesh_files::quads_of_box.end() - 1}));
+  const std::string box = mesh_files::box("counted-box.obj", {-1, -1, -1}, {1, 1, 0}),
+                    falls = R"(<sphere centre="5 5 5" radius="0.1" mass="1"/>)";
+  const auto bytes = [](const std::string& world) {
+    const Loaded one = presets::load(scene(lump + R"(<place translate="0 0 3"/>)", world));
+    one->step();
+    return one->contacts()->bytes();
+  };
+  constexpr std::size_t tree = 9 * sizeof(double), without = 1000; // bytes a triangle; of all else at most
+  EXPECT_GT(bytes(obstacle(box)), bytes(obstacle(wall)) + 12 * tree);
+  EXPECT_GT(bytes(obstacle(wall) + falls), bytes(obstacle(wall)) + 10 * tree);
+  EXPECT_LT(bytes(obstacle(box)), bytes(obstacle(wall)) + 12 * 2 * tree + without);
+}
+
 std::string refusal_of(const std::string& preset) {
   try {
     presets::load(preset);
