@@ -35,6 +35,7 @@ struct BodySettings {
   ShapeSettings shape = SheetShape{};
   std::vector<ApplySettings> applies = {}; // rules that construct, before the body is placed
   std::vector<SlitSettings> slits = {};    // likewise, after them
+  std::optional<PiecesSettings> pieces = {}; // likewise, after those
   Placement place = {};
   MassSettings mass = {};
   std::optional<SpringsSettings> springs = {};

@@ -86,11 +86,14 @@ std::vector<ChildType> shape_types() {
   static const ElementType mass = element_type_of<MassSettings>("mass", "the mass of the body");
   static const ElementType slit = element_type_of<SlitSettings>(
       "slit", "a cut that a sheet of triangles has from the start: the notch of a specimen, a perforation");
+  static const ElementType pieces = element_type_of<PiecesSettings>(
+      "pieces", "the body is weak between cells of its shape: sheets of triangles, solids of tetrahedra");
   std::vector<ChildType> types;
   for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
   types.push_back({&apply_type(), 0, -1});
   types.push_back({&subdivide_type(), 0, -1});
   types.push_back({&slit, 0, -1});
+  types.push_back({&pieces, 0, 1});
   types.push_back({&place, 0, 1});
   types.push_back({&mass, 1, 1});
   return types;

@@ -43,8 +43,14 @@ void check_grain(const LawSettings& law) {
                     "leave out one of them");
 }
 
+// Whether walls between pieces are weak for the law (strength.h).
+bool parts_walls(const LawSettings& law) {
+  const auto of_walls = [](Cell cell) { return cell == Cell::Borders || cell == Cell::Vertices; };
+  return of_walls(law.cell) && of_walls(law.change->cell);
+}
+
 // With what is found on the body.
-LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
+LawSettings completed(LawSettings law, Body& body, const BodySettings& settings) {
   check_settings(law);
   const SettingsSource& source = law.source;
   if (!law.kind.empty() && law.criterion->kinds.empty())
@@ -57,7 +63,7 @@ LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
   const CriterionRequest request = body.request_for(law);
   const NamedCriterion criterion{law.criterion, law.kind};
   law.cell = criterion.cell();
-  if (!law.rule.empty()) take_rule(law, rules, request);
+  if (!law.rule.empty()) take_rule(law, settings.rules, request);
   if (!law.change) law.change = &default_change(law.cell);
   if (const std::string refusal = pair_of(criterion, *law.change, request.map.dimension()).refusal;
       !refusal.empty())
@@ -73,7 +79,9 @@ LawSettings completed(LawSettings law, Body& body, const RuleBook& rules) {
       source.fail("change", fmt::format("'{}' {}", law.change->name, lacking),
                   "rend help tear tells what each change needs; change=\"split-vertex\" parts whole elements "
                   "of every kind");
-  law.by_place = Strength::of(law.strength, law.cell, *body.map, body.groups, source);
+  std::optional<double> walls;
+  if (settings.pieces && law.rule.empty() && parts_walls(law)) walls = settings.pieces->strength;
+  law.by_place = Strength::of(law.strength, law.cell, walls, *body.map, body.groups, source);
   if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }
@@ -123,7 +131,7 @@ void build_laws(Body& body, const BodySettings& settings) {
   else
     body.awaited.all().clear();
   for (const LawSettings& asked : settings.tears) {
-    const LawSettings law = completed(asked, body, settings.rules);
+    const LawSettings law = completed(asked, body, settings);
     body.tear_laws.emplace_back(body.request_for(law), law);
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
     law.source.fail(

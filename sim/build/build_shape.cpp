@@ -74,10 +74,10 @@ void build_shape(Body& body, const BodySettings& settings) {
   check_settings(settings.place);
   std::visit(
       [&](const auto& shape) {
-        const bool by_rules = !settings.applies.empty() || !settings.slits.empty();
+        const bool by_rules = !settings.applies.empty() || !settings.slits.empty() || settings.pieces;
         make_map(body, shape, by_rules ? Placement{} : settings.place);
         if (by_rules || body.map->map().dart_count() == 0)
-          construct(body, settings.applies, settings.slits, settings.rules, settings.place,
+          construct(body, settings.applies, settings.slits, settings.pieces, settings.rules, settings.place,
                     keep_start(settings), shape.source);
         check_reach(body, shape.source);
       },

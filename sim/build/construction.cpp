@@ -6,6 +6,7 @@
 #include "sim/build/shape.h"
 #include "sim/cuts/start_element.h"
 #include "sim/embedding/texture_coordinates.h"
+#include "sim/fracture/piece.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"
@@ -145,6 +146,7 @@ public:
     }
     body_.groups = std::move(groups);
     if (keep_start == KeepStart::Yes) hand_on_start_elements(*body_.map, *map, order, place.scale);
+    hand_on_pieces(*body_.map, *map, order);
     hand_on_texture_coordinates(*body_.map, *map, order);
     body_.map = std::move(map);
   }
@@ -389,11 +391,12 @@ ApplySettings read_apply(const PresetNode& node) {
 }
 
 void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
-               const RuleBook& rules, const Placement& place, KeepStart keep_start,
-               const SettingsSource& shape) {
+               const std::optional<PiecesSettings>& pieces, const RuleBook& rules, const Placement& place,
+               KeepStart keep_start, const SettingsSource& shape) {
   Construction construction(body, rules, shape);
   for (const ApplySettings& settings : applies) construction.apply(settings);
   cut_slits(*body.map, slits);
+  if (pieces) make_pieces(*body.map, *pieces);
   construction.finish(place, keep_start);
 }
 

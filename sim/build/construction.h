@@ -21,6 +21,7 @@
 #pragma once
 
 #include "sim/base/settings.h"
+#include "sim/build/pieces.h"
 #include "sim/build/rule_book.h"
 #include "sim/build/slit.h"
 #include "sim/embedding/selector.h"
@@ -50,14 +51,14 @@ const ElementType& subdivide_type();
 // Of an <apply>, or of a <subdivide>, which is short for the rule that does so in the body's dimension.
 ApplySettings read_apply(const PresetNode& node);
 
-// Whether elements still know after slits of which triangle they are a part (sim/cuts/start_element.h).
+// Whether elements still know after slits and pieces of which one they are a part (sim/cuts/start_element.h).
 enum class KeepStart { No, Yes };
 
-// Applies rules in their order to the map of the body, cuts slits, then places and orders it. UserError: a rule
-// that applies nowhere, or lets the map grow too large; cells that are none of the standard ones; a slit that
-// cannot be cut.
+// Applies rules in their order to the map of the body, cuts slits and pieces, then places and orders it.
+// UserError: a rule that applies nowhere, or lets the map grow too large; cells that are none of the standard
+// ones; a slit or pieces that cannot be cut.
 void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
-               const RuleBook& rules, const Placement& place, KeepStart keep_start,
-               const SettingsSource& shape);
+               const std::optional<PiecesSettings>& pieces, const RuleBook& rules, const Placement& place,
+               KeepStart keep_start, const SettingsSource& shape);
 
 } // namespace rend

@@ -117,6 +117,7 @@ BodySettings read_body(const PresetNode& node) {
   for (const auto& child : node.children())
     if (child->name() == "apply" || child->name() == "subdivide") body.applies.push_back(read_apply(*child));
   read_all(node, "slit", body.slits);
+  read_child(node, "pieces", body.pieces);
   read_child(node, "place", body.place);
   read_child(node, "mass", body.mass);
   if (const PresetNode* springs = node.child("springs")) body.springs = read_springs(*springs);

@@ -25,6 +25,7 @@ struct Candidate {
   Dart dart;                  // the smallest of the cell
   Vec3 normal = Vec3::Zero(); // of a vertex: unit normal of the plane along which it would be split
   double strength = 1;        // of the cell: what the threshold is multiplied by there (strength.h)
+  bool wall = false;          // it is at a wall between pieces, and has that strength (strength.h)
   double relative() const { return value / strength; }
 };
 

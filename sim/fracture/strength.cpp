@@ -1,5 +1,6 @@
 #include "sim/fracture/strength.h"
 
+#include "sim/base/check.h"
 #include "sim/base/hash.h"
 #include "sim/base/math.h"
 #include "sim/mechanics/mass.h"
@@ -146,8 +147,9 @@ bool StrengthExpression::draws() const {
   });
 }
 
-std::shared_ptr<Strength> Strength::of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
-                                       const VertexGroups& groups, const SettingsSource& source) {
+std::shared_ptr<Strength> Strength::of(const StrengthSettings& settings, Cell cell, std::optional<double> walls,
+                                       EmbeddedMap& map, const VertexGroups& groups,
+                                       const SettingsSource& source) {
   std::shared_ptr<Strength> made(new Strength(cell));
   bool draws = false;
   if (!settings.factor.empty() || source.given("strength")) {
@@ -157,21 +159,28 @@ std::shared_ptr<Strength> Strength::of(const StrengthSettings& settings, Cell ce
     made->strength_ = &map.add(std::move(strength));
     made->elements_ = &map.cells(made->strength_->orbit());
     expression->forget_groups();
-    made->rebind();
   }
+  if (walls) {
+    made->pieces_ = find_pieces(map);
+    CHECK(made->pieces_);
+    made->wall_ = *walls;
+  }
+  made->rebind();
   if (source.given("seed") && !draws)
     source.fail("seed", "<tear> has a seed, and no strength that draws anything",
                 "strength=\"1 + 0.3*random\" is one that does");
   if (settings.where.given() || source.given("group"))
     made->select(map, select_vertices(map, groups, settings.where, "tear", source), source);
-  return made->strength_ || made->selected_ ? made : nullptr;
+  return made->strength_ || made->selected_ || made->pieces_ ? made : nullptr;
 }
 
 void Strength::rebind() {
+  least_ = wall_;
   if (!strength_) return;
   least_ = std::numeric_limits<double>::max();
   for (Slot e = 0; e < elements_->slots(); ++e)
     if (elements_->alive(e)) least_ = std::min(least_, (*strength_)[e]);
+  least_ *= wall_;
 }
 
 void Strength::select(EmbeddedMap& map, const std::vector<Slot>& vertices, const SettingsSource& source) {
@@ -206,6 +215,8 @@ void Strength::weigh(const EmbeddedMap& map, double above, std::vector<Candidate
     collect(map.map(), orbit, candidate.dart, cell);
     if (!is_selected(map, cell)) return true;
     candidate.strength = at(map, cell);
+    candidate.wall = pieces_ && is_at_wall(map, *pieces_, cell);
+    if (candidate.wall) candidate.strength *= wall_;
     return !(candidate.relative() > above);
   });
 }

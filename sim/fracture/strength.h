@@ -3,10 +3,10 @@
 //   value > threshold · s(cell)
 //
 // s of an element (a face of a sheet, a volume of a solid) is an expression of the middle X of its vertices
-// at rest, evaluated when the body is built, and for elements that a rule makes of nothing when they are made.
-// What is made of one element is as strong as that was, of several as their mean; what is merged as the weaker.
-// s of a vertex, an edge or a border is the least of the elements at it: what is held by several breaks with
-// the weakest.
+// at rest, evaluated when the body is built, and for elements that a rule makes of nothing when they are
+// made. What is made of one element is as strong as that was, of several as their mean; what is merged as the
+// weaker. s of a vertex, an edge or a border is the least of the elements at it: what is held by several
+// breaks with the weakest.
 //
 //   rest              X [m]; its coordinates are x(rest), y(rest), z(rest)
 //   random            one draw for each element of the start, between 0 and 1: a hash of X and of the seed
@@ -22,17 +22,25 @@
 // however fine its mesh is (W. Weibull, A statistical distribution function of wide applicability, J. Appl.
 // Mech. 1951), and at a stress that is lower by (V/V')^(1/m) if it is larger than the V' that was given.
 //
-// s is above 1e-6. A law that selects vertices acts where all vertices of the cell that its criterion measures
-// are selected; what it changes there may reach one element beyond. A new vertex is selected if all are that it
-// is made of.
+// Of a body with pieces (piece.h), s is multiplied by the strength of its walls at a border that is a wall,
+// and at a vertex that has one, until it has none any more: what holds pieces together breaks before what is
+// inside of them. There a law whose change is `separate` opens walls alone, and one that splits or cuts
+// vertices parts the pieces from each other (split_vertex.h). Springs along edges, elements, and changes that
+// delete know no walls: they hold, or remove, what is inside of a piece.
+//
+// s of an expression is above 1e-6. A law that selects vertices acts where all vertices of the cell that its
+// criterion measures are selected; what it changes there may reach one element beyond. A new vertex is
+// selected if all are that it is made of.
 #pragma once
 
 #include "sim/embedding/selector.h"
 #include "sim/expression/expression.h"
 #include "sim/fracture/criterion.h"
+#include "sim/fracture/piece.h"
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace rend {
 
@@ -99,15 +107,16 @@ struct SelectedVertex {
 // Of one law on one body.
 class Strength {
 public:
-  // Null: it is the same everywhere, and nothing is stored. UserError: as above; no such vertices, or no cell
-  // of which all are selected.
-  static std::shared_ptr<Strength> of(const StrengthSettings& settings, Cell cell, EmbeddedMap& map,
-                                      const VertexGroups& groups, const SettingsSource& source);
+  // `walls`: their strength; none: they are as strong as all else. Null: it is the same everywhere, and
+  // nothing is stored. UserError: as above; no such vertices, or no cell of which all are selected.
+  static std::shared_ptr<Strength> of(const StrengthSettings& settings, Cell cell, std::optional<double> walls,
+                                      EmbeddedMap& map, const VertexGroups& groups,
+                                      const SettingsSource& source);
 
   void rebind();                          // after a change of the map
-  double least() const { return least_; } // of all elements
-  // Gives candidates the strength of their cells; drops those that are not above this value relative to it, or
-  // not selected.
+  double least() const { return least_; } // of all elements and walls
+  // Gives candidates the strength of their cells; drops those that are not above this value relative to it,
+  // or not selected.
   void weigh(const EmbeddedMap& map, double above, std::vector<Candidate>& candidates) const;
 
 private:
@@ -121,6 +130,8 @@ private:
   const CellIndex* elements_ = nullptr;               // null: likewise
   const Column<SelectedVertex>* selected_ = nullptr;  // null: all
   double least_ = 1;
+  const PieceColumn* pieces_ = nullptr; // null: walls are as strong as all else
+  double wall_ = 1;                     // strength of walls
 };
 
 } // namespace rend

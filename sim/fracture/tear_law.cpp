@@ -250,18 +250,27 @@ bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
     left_.clear();
     for (Dart d : cell(n))
       if (edit.map().alive(d)) left_.push_back(d);
-    return !left_.empty() && change.apply(edit, view, {candidates_[n].normal, candidates_[n].value}, left_);
+    return make_change(edit, view, {candidates_[n].normal, candidates_[n].value}, candidates_[n].wall);
   }
   const Orbit orbit = orbit_of(change.cell, edit.map().dimension());
   for (std::size_t place = first_place_[n]; place < first_place_[n + 1]; ++place) {
     grown(edit.map(), orbit, places_.darts(place), left_);
     const FoundPlace found(places_.normal(place), candidates_[n].value);
-    if (!left_.empty() && change.apply(edit, view, found, left_)) return true;
+    if (make_change(edit, view, found, candidates_[n].wall)) return true;
     // The best place of a rule was changed by another candidate: this one has got what it asks for.
     const bool others = change.memory && change.cell != Cell::Vertices && place == first_place_[n];
     if (others && (left_.empty() || touched.any_of(*edit.journal(), left_))) return false;
   }
   return false;
+}
+
+// At the darts that are left. Where the law was exceeded at a wall, it parts pieces alone.
+bool TearLaw::make_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall) {
+  const ChangeType& change = *settings_.change;
+  if (left_.empty()) return false;
+  if (wall && change.cell == Cell::Vertices) return part_pieces(edit, view, found, left_);
+  if (wall && !parts_pieces(edit, view, left_)) return false;
+  return change.apply(edit, view, found, left_);
 }
 
 std::span<const Dart> TearLaw::cell(std::size_t candidate) const {

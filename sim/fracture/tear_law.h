@@ -100,6 +100,7 @@ private:
   void note_places(const ForceView& view);
   std::span<const Dart> cell(std::size_t candidate) const;
   bool change_at(Edit& edit, const ForceView& view, std::size_t candidate);
+  bool make_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall);
 
   LawSettings settings_;
   const Transfer* transfer_;
