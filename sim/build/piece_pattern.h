@@ -18,6 +18,7 @@
 #include "sim/cuts/wall.h"
 #include "sim/embedding/embedded_map.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
