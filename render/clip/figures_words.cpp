@@ -47,11 +47,12 @@ std::string place_in_words(const Reached& reached, const std::string& unit) {
 
 std::string reach_in_words(const std::vector<ReachFigures>& all) {
   if (all.empty()) return "";
-  const long every = all.front().look_every;
-  std::string out = fmt::format(
-      "  reach      {}largest values where the criterion's default change is possible, without tearing. A\n"
-      "             threshold slightly below such a value tears first at that time; one above it never tears\n",
-      every > 1 ? fmt::format("looked at every {} steps: ", every) : "");
+  std::string out =
+      "  reach      largest values where the criterion's default change is possible, without tearing. A\n"
+      "             threshold slightly below such a value tears first at that time; one above it never tears\n";
+  if (const long every = all.front().look_every; every > 1)
+    out += fmt::format("             looked at every {} steps: what is higher between two looks is missed\n",
+                       every);
   for (const ReachFigures& one : all)
     out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
                        one.reached.value > 0 ? place_in_words(one.reached, one.unit)

@@ -95,6 +95,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
                                                 .guard = options.guard,
                                                 .reach = options.reach,
                                                 .look_every = options.reach_every,
+                                                .steps = options.steps,
                                                 .profile = options.profile});
   check_counts();
   const double step = scene_->step_size();

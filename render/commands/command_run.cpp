@@ -149,8 +149,8 @@ std::function<Exit()> declare_run(const CommandLine& app) {
       "choose a threshold by");
   app.add_option(
          "--reach-every", options->session.reach_every,
-         "with --reach: look at every Nth step; more seldom is quicker, and values may come out too low; "
-         "without it, at every 256th, in short clips more often")
+         "with --reach: look at every Nth step; what is higher between two looks is missed; without it, at "
+         "every 256th, in short runs more often")
       .type_name("N")
       .transform(whole_number(1, 1000000));
   app.add_flag("--profile", options->session.profile,

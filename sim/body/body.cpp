@@ -263,7 +263,7 @@ void Body::measure_elements() {
 }
 
 int Body::tear(double time, long number, const std::function<void()>& sound) {
-  if (watches_ && number % look_every != 0) return 0;
+  if (watches_ && number % look_every != 0 && number != last_look) return 0;
   if (watches_) measure_elements();
   const std::size_t before = events.size();
   int made = 0;
@@ -277,7 +277,8 @@ int Body::tear(double time, long number, const std::function<void()>& sound) {
 
 int Body::apply_law(std::size_t number, double time, long step, const std::function<void()>& sound) {
   const ForceView now = view();
-  if (tear_laws[number].find_and_note(now, time, step % look_every == 0).empty()) return 0;
+  const bool look = watches_ || step % look_every == 0;
+  if (tear_laws[number].find_and_note(now, time, look).empty()) return 0;
   sound();
   if (change_observer) change_observer(WitnessAt::BeforeChanges);
   const bool remeshes = work_meter && tear_laws[number].settings().change->grows;

@@ -64,6 +64,7 @@ struct Body final : System {
   double added_mass = 0;                             // [kg], by mass scaling (scene/mass_scaling.h)
   std::vector<TearLaw> tear_laws;
   long look_every = 1; // steps between looks at the largest values that the laws have reached
+  long last_look = -1; // the last step of the run: a body that only watches looks there too; −1: not known
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;
   ContactTable contact_table;                    // with each thing; empty until the scene has all bodies

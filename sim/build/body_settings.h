@@ -33,8 +33,8 @@ namespace rend {
 struct BodySettings {
   std::string name = "body"; // to tell bodies apart
   ShapeSettings shape = SheetShape{};
-  std::vector<ApplySettings> applies = {}; // rules that construct, before the body is placed
-  std::vector<SlitSettings> slits = {};    // likewise, after them
+  std::vector<ApplySettings> applies = {};   // rules that construct, before the body is placed
+  std::vector<SlitSettings> slits = {};      // likewise, after them
   std::optional<PiecesSettings> pieces = {}; // likewise, after those
   Placement place = {};
   MassSettings mass = {};

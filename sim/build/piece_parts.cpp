@@ -1,5 +1,7 @@
 #include "sim/build/piece_parts.h"
 
+#include "sim/base/stop_request.h"
+
 #include "sim/mechanics/element_quality.h"
 #include "sim/mechanics/mass.h"
 #include "sim/topology/walk.h"
@@ -19,6 +21,7 @@ constexpr std::uint32_t no_part = ~std::uint32_t{0};
 bool PieceParts::settle(std::size_t count) {
   find();
   for (std::size_t rounds = 0;;) {
+    throw_if_stop_is_due();
     while (alive_ > count)
       if (!join_smallest()) return false;
     write();

@@ -84,11 +84,14 @@ SampleBox box_of(const std::vector<BodySample>& samples) {
     box.high = box.high.cwiseMax(sample.at);
   }
   const Vec3 size = box.high - box.low;
-  std::array<int, 3> axes{0, 1, 2};
-  std::ranges::stable_sort(axes, [&](int a, int b) { return size[a] > 1.001 * size[b]; });
-  for (std::size_t n = 0; n < 3; ++n) {
-    box.along[n] = Vec3::Unit(axes[n]);
-    box.length[n] = size[axes[n]];
+  std::vector<int> axes{0, 1, 2};
+  for (std::size_t n = 0; n < 3; ++n) { // of those that are about as long, x before y before z
+    double most = 0;
+    for (const int axis : axes) most = std::max(most, size[axis]);
+    const auto next = std::ranges::find_if(axes, [&](int axis) { return 1.001 * size[axis] >= most; });
+    box.along[n] = Vec3::Unit(*next);
+    box.length[n] = size[*next];
+    axes.erase(next);
   }
   return box;
 }

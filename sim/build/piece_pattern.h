@@ -66,7 +66,7 @@ struct SampleBox {
 };
 SampleBox box_of(const std::vector<BodySample>& samples);
 
-// Keys below which given shares of all sizes lie, increasing; `sorted`: by keys.
+// Keys below which given shares of all sizes lie, increasing.
 struct SizedKey {
   double key, size;
 };

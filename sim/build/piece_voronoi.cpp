@@ -1,3 +1,4 @@
+#include "sim/base/stop_request.h"
 #include "sim/build/piece_pattern.h"
 
 #include <algorithm>
@@ -53,6 +54,7 @@ std::vector<Vec3> seeds_of(const PiecesSettings& settings, const std::vector<Bod
   std::vector<Vec3> seeds(static_cast<std::size_t>(settings.count));
   for (Vec3& seed : seeds) seed = draw();
   for (int step = 0; step < most_steps; ++step) {
+    throw_if_stop_is_due();
     const std::vector<SeedCell> cells = seed_cells(seeds, samples);
     const auto [least, most] = std::ranges::minmax(cells, {}, &SeedCell::size);
     if (step > 1 && most.size <= even * least.size) break;
@@ -85,6 +87,7 @@ PiecePattern voronoi_pattern(const PiecesSettings& settings, const std::vector<B
   PiecePattern pattern;
   std::vector<std::size_t> others(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) {
+    throw_if_stop_is_due();
     std::iota(others.begin(), others.end(), std::size_t{0});
     std::ranges::stable_sort(others, {}, [&](std::size_t k) { return (seeds[k] - seeds[i]).squaredNorm(); });
     for (std::size_t j = i + 1; j < seeds.size(); ++j) {

@@ -1,6 +1,7 @@
 #include "sim/build/pieces.h"
 
 #include "sim/base/reach.h"
+#include "sim/base/stop_request.h"
 #include "sim/build/piece_parts.h"
 #include "sim/mechanics/element.h"
 #include "sim/mechanics/element_quality.h"
@@ -56,7 +57,10 @@ void make_pieces(EmbeddedMap& map, const PiecesSettings& settings) {
   if (count > elements) source.fail("count", refusal, "take smaller cells, or fewer pieces");
   const PiecePattern pattern = pattern_of(settings, samples_of(map, samples_of_a_cell * count));
   WallCutter cutter(map);
-  for (const Wall& wall : pattern.walls) cutter.cut(wall);
+  for (const Wall& wall : pattern.walls) {
+    throw_if_stop_is_due();
+    cutter.cut(wall);
+  }
   for (int n = 0; n < times_straightened; ++n) cutter.straighten();
   PieceColumn& pieces = map.add(PieceOfElement{}.on(map));
   const CellIndex& all = map.cells(pieces.orbit());

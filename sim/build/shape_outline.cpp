@@ -54,7 +54,7 @@ void check_cells(const OutlineShape& shape, const Outline& outline) {
   const Eigen::Vector2d box = outline.box().sizes() / shape.cell;
   const double triangles = 2.4 * (box.x() + 4) * (box.y() + 4),
                darts = shape.depth ? 72.0 * layers_of(shape) : 6;
-  if (triangles * darts >= Dart::none_value)
+  if (!(triangles * darts < Dart::none_value))
     shape.source.fail("cell", fmt::format("cells of {:g} m are too many for one body", shape.cell),
                       "lengths are in metres");
 }
@@ -65,7 +65,8 @@ PolygonMesh triangles_of(const OutlineShape& shape, const Outline& outline) {
     if (!turns_left(mesh, t))
       shape.source.fail("cell", "a cell of the outline is turned around", "take smaller cells");
   const double asked = outline.area(), got = area_of(mesh);
-  if (std::abs(got - asked) > most_lost * asked)
+  if (!(asked > 0)) shape.source.fail("path", "the outline encloses no area", "its points lie on a line");
+  if (!(std::abs(got - asked) <= most_lost * asked))
     shape.source.fail(
         "cell",
         fmt::format("cells of {:g} m are too large for the outline: its area is {:.3g} m2, theirs {:.3g}",

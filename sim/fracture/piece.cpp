@@ -18,8 +18,11 @@ bool is_at_wall(const EmbeddedMap& map, const PieceColumn& pieces, std::span<con
   const GMap& g = map.map();
   const int link = g.dimension();
   const auto piece = [&](Dart d) { return pieces[map.slot(pieces.orbit(), d)]; };
-  return std::ranges::any_of(
-      darts, [&](Dart d) { return !g.is_free(link, d) && piece(d) != piece(g.alpha(link, d)); });
+  return std::ranges::any_of(darts, [&](Dart d) {
+    if (g.is_free(link, d)) return false;
+    const std::uint32_t one = piece(d), other = piece(g.alpha(link, d));
+    return one != other && one != PieceOfElement::none && other != PieceOfElement::none;
+  });
 }
 
 void hand_on_pieces(const EmbeddedMap& from, EmbeddedMap& to, std::span<const Dart> order) {

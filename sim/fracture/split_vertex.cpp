@@ -25,8 +25,8 @@ Vec3 centre_of_element(const EmbeddedMap& map, const Record* position, Dart d) {
   return sum / static_cast<double>(slots.size());
 }
 
-// For every corner at a vertex: whether its element lies on the positive side; of elements of one piece all do,
-// or none.
+// For every corner at a vertex: whether its element lies on the positive side; where pieces are given, of
+// elements of one piece all do, or none.
 class CornerSides {
 public:
   CornerSides(const EmbeddedMap& map, std::span<const Dart> darts, const Record* position, const Vec3& normal,

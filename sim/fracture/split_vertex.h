@@ -18,7 +18,7 @@ bool can_be_split(const ForceView& view, const FoundPlace& found, std::span<cons
 // False: no wall is left there, or elements at the vertex have been made in this edit; nothing changed.
 bool part_pieces(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts);
 
-// Whether a wall is among the borders of these darts.
+// Whether a wall is among the borders of these darts; false where elements there were made in this edit.
 bool parts_pieces(const Edit& edit, const ForceView& view, std::span<const Dart> darts);
 
 } // namespace rend

@@ -59,9 +59,7 @@ private:
   void draw(char kind) {
     switch (kind) {
     case 'M':
-      close();
-      here_ = begin_ = point();
-      started_ = true;
+      move(point());
       return;
     case 'L':
       return line(point());
@@ -93,6 +91,12 @@ private:
       --at_;
       fail(fmt::format("'{}' is no command of a path: M L H V C S Q T A or Z", command_));
     }
+  }
+
+  void move(const Vec2& to) {
+    close();
+    here_ = begin_ = to;
+    started_ = true;
   }
 
   void line(const Vec2& to) { add({here_, here_, to, to}); }
@@ -129,7 +133,7 @@ private:
     const Vec2 to = point();
     radius = radius.cwiseAbs();
     if (to == here_) return;
-    if (!(radius.minCoeff() > 0)) return line(to);
+    if (!(radius.minCoeff() > 1e-9 * (to - here_).norm())) return line(to); // as SVG has it for 0
     Eigen::Matrix2d turn;
     turn << cosine_of_degrees(degrees), -sine_of_degrees(degrees), sine_of_degrees(degrees),
         cosine_of_degrees(degrees);

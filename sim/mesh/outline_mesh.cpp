@@ -1,6 +1,7 @@
 #include "sim/mesh/outline_mesh.h"
 
 #include "sim/base/math.h"
+#include "sim/base/stop_request.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,10 @@ private:
   // times.
   void find_crossings() {
     for (const Contour& ring : outline_.rings)
-      for (std::size_t n = 0; n < ring.size(); ++n) cross(ring[n], ring[(n + 1) % ring.size()]);
+      for (std::size_t n = 0; n < ring.size(); ++n) {
+        throw_if_stop_is_due();
+        cross(ring[n], ring[(n + 1) % ring.size()]);
+      }
     for (auto& [edge, shares] : crossings_) std::ranges::sort(shares);
   }
 
@@ -113,11 +117,12 @@ private:
 
   void take(const Vec2& corner) {
     const int y = static_cast<int>((corner.y() - origin_.y()) / rise_);
+    const int column = static_cast<int>((corner.x() - origin_.x()) / cell_);
     int nearest = -1;
     double least = 0.6 * cell_;
     for (int row = y - 1; row <= y + 2; ++row)
-      for (int x = static_cast<int>((corner.x() - origin_.x()) / cell_) - 2; x < columns_; ++x) {
-        if (row < 0 || row >= rows_ || x < 0) continue;
+      for (int x = column - 2; x <= column + 2; ++x) {
+        if (row < 0 || row >= rows_ || x < 0 || x >= columns_) continue;
         const int v = vertex(x, row);
         const double away = (at(v) - corner).norm();
         if (place(v) == Place::On || away >= least) continue;

@@ -45,7 +45,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   for (auto& body : bodies_) body->prepare(scheme(), run);
   throw_if_stop_is_due(); // what follows takes long in a large body
   set_step();
-  set_looks(options.look_every);
+  set_looks(options);
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
   divide_for_contact();
   set_answers();
@@ -109,13 +109,14 @@ SchemeSettings Scene::checked_settings() const {
 // Looking for the largest value that a law has reached can take as long as a step or two, where looking for
 // what exceeds its threshold takes little. So it is done at every 256th step, in short clips more often; a step
 // that solves takes so long that it is done at every one.
-void Scene::set_looks(std::optional<long> asked) {
-  constexpr double least_looks = 32, longest = 256; // looks in a clip; steps from one to the next
-  const double steps = duration_ / step_;
-  const long every = asked             ? *asked
-                     : scheme().solves ? 1
-                                       : std::lround(std::clamp(std::floor(steps / least_looks), 1.0, longest));
-  for (auto& body : bodies_) body->look_every = every;
+void Scene::set_looks(const SceneOptions& options) {
+  constexpr long least_looks = 32, longest = 256; // looks in a run; steps from one to the next
+  const long steps = options.steps ? *options.steps : std::lround(std::min(duration_ / step_, 1e15));
+  const long cheap = scheme().solves ? 1 : std::clamp(steps / least_looks, 1L, longest);
+  for (auto& body : bodies_) {
+    body->look_every = options.look_every.value_or(cheap);
+    body->last_look = steps - 1;
+  }
 }
 
 double Scene::time() const {

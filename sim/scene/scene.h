@@ -22,11 +22,11 @@ struct SceneOptions {
   bool set_between_steps = true;
   bool guard = true; // false: failed steps are not redone; a state that is not finite still stops the run
   std::optional<Fault> fault = {};
-  bool reach = false; // no body tears: the largest values of all criteria are found instead
-  std::optional<long> look_every =
-      {};               // steps between looks at the largest values of laws; none: as many as are cheap
-  bool profile = false; // every step is timed (base/profile.h)
-  bool parallel_small_bodies = false; // ProgramOptions
+  bool reach = false;                  // no body tears: the largest values of all criteria are found instead
+  std::optional<long> look_every = {}; // steps between looks at the largest values of laws; none: set_looks()
+  std::optional<long> steps = {};      // of the run, where it does not last as long as the scene says
+  bool profile = false;                // every step is timed (base/profile.h)
+  bool parallel_small_bodies = false;  // ProgramOptions
 };
 
 // Wall clock [s]; those of step() from the scene's profile: `forces` includes loads, `integrate` the solver,
@@ -121,7 +121,7 @@ private:
   EnergyState energy_state() const;
   void set_step();
   [[noreturn]] void refuse_so_many_steps() const;
-  void set_looks(std::optional<long> asked);
+  void set_looks(const SceneOptions& options);
   void set_answers();
   void measure_answers();
   void forget_answers();   // those later than the current time

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ protected:
 };
 
 TEST_P(Reach, is_the_threshold_at_which_the_first_tear_comes) {
-  const json figures = run(std::string(GetParam()) + ".xml --reach");
+  const json figures = run(std::string(GetParam()) + ".xml --reach --reach-every 1");
   EXPECT_EQ(figures["tears"], 0);
   ASSERT_GE(figures["reach"].size(), 6u);
   constexpr double slight = 1e-6;
@@ -77,7 +78,8 @@ TEST_P(Reach, is_the_threshold_at_which_the_first_tear_comes) {
 
 TEST_P(Reach, is_told_of_a_law_that_never_tears) {
   const std::string words = std::string(GetParam()) + ".xml --set body.tear.threshold=1e9";
-  const json figures = run(words), law = figures["laws"][0], all = run(words + " --reach")["reach"];
+  const json figures = run(words), law = figures["laws"][0],
+             all = run(words + " --reach --reach-every 1")["reach"];
   EXPECT_TRUE(law["first"].is_null());
   EXPECT_GT(law["look_every"], 1);
   for (const json& one : all) {
@@ -90,6 +92,27 @@ TEST_P(Reach, is_told_of_a_law_that_never_tears) {
   }
   EXPECT_THAT(place.rend("run " + words).out,
               AllOf(HasSubstr("never; largest value, sampled every "), HasSubstr(" near (")));
+}
+
+TEST_P(Reach, is_looked_for_at_some_steps_and_at_the_last) {
+  const std::string preset = std::string(GetParam()) + ".xml";
+  const json every = run(preset + " --reach --reach-every 1"), some = run(preset + " --reach");
+  ASSERT_EQ(some["reach"].size(), every["reach"].size());
+  const long steps = some["steps"], between = some["reach"][0]["look_every"];
+  EXPECT_EQ(between, std::clamp(steps / 32, 1L, 256L));
+  const double step = some["step"];
+  for (std::size_t n = 0; n < some["reach"].size(); ++n) {
+    const json &one = some["reach"][n], all = every["reach"][n];
+    if (one["reached"].is_null()) continue; // its place was possible at other steps
+    EXPECT_LE(one["reached"]["value"].get<double>(), all["reached"]["value"].get<double>() * (1 + 1e-9));
+    const long at = std::lround(one["reached"]["time"].get<double>() / step);
+    EXPECT_TRUE(at % between == 0 || at == steps - 1) << one;
+    // What is largest at the end is found.
+    const long top = std::lround(all["reached"]["time"].get<double>() / step);
+    EXPECT_TRUE(top != steps - 1 || at == top) << one;
+  }
+  // A run that is cut short looks as often.
+  EXPECT_EQ(run(preset + " --reach --steps 64")["reach"][0]["look_every"], 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Reach, testing::Values("pulled", "block"));

@@ -35,7 +35,7 @@ TEST(Grain, the_weakest_plane_is_weaker_than_a_hundred_thousand_others) {
       directions.push_back(direction());
       along.insert(along.end(), directions[1].begin(), directions[1].end());
     }
-    Eigen::Matrix3d stress = Eigen::Matrix3d::Random();
+    Eigen::Matrix3d stress;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) stress(r, c) = normal(random);
     stress = (stress + stress.transpose()).eval();

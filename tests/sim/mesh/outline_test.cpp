@@ -53,7 +53,8 @@ TEST(OutlinePath, what_is_written_in_another_way_is_the_same) {
   same("m1 1 1.5-.5-5.5+3.5z", "M 1,1 L 2.5,0.5 L -3,4 Z");
   same("M0 0C1 1 2 1 3 0S5-1 6 0L6 5Z", "M0 0C1 1 2 1 3 0C4-1 5-1 6 0L6 5Z");
   same("M0 0Q1 2 2 0T4 0L4 5Z", "M0 0Q1 2 2 0Q3-2 4 0L4 5Z");
-  same("M0 0A1 1 0 012 0Z", "M0 0A1 1 0 0 1 2 0Z"); // flags without blanks
+  same("M0 0A1 1 0 012 0Z", "M0 0A1 1 0 0 1 2 0Z");         // flags without blanks
+  same("M0 0h1v1 m3 0h1v1", "M0 0L1 0L1 1Z M4 1L5 1L5 2Z"); // from the last point, where no Z leads back
   same("M0 0h1v1z m3 0h1v1z", "M0 0L1 0L1 1Z M3 0L4 0L4 1Z");
 }
 
