@@ -139,7 +139,7 @@ std::vector<Vec3> WallCutter::section(Dart element) const {
 void WallCutter::move_nearest() {
   for (const Crossing& found : crossings()) {
     const auto still = crossing_of(found.dart);
-    if (still && move(still->dart)) ++figures_.moved;
+    if (still) move(still->dart);
   }
 }
 
@@ -194,13 +194,8 @@ void WallCutter::divide_others() {
   for (const Crossing& found : crossings()) {
     const auto still = crossing_of(found.dart);
     if (!still) continue;
-    if (leaves_room(still->dart, still->share) && divide(still->dart, still->share)) {
-      ++figures_.divided;
-    } else if (move(still->dart) || move(g_.alpha(0, still->dart))) {
-      ++figures_.moved;
-    } else {
-      bend(still->dart);
-    }
+    if (leaves_room(still->dart, still->share) && divide(still->dart, still->share)) continue;
+    if (!move(still->dart) && !move(g_.alpha(0, still->dart))) bend(still->dart);
   }
 }
 
@@ -211,7 +206,6 @@ void WallCutter::bend(Dart d) {
   bent_.insert(map_.vertex(d));
   walls_[map_.vertex(d)].push_back(wall_->plane.normal);
   bends_.push_back({d, wall_->plane});
-  ++figures_.bent;
 }
 
 void WallCutter::straighten() {

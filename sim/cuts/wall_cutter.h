@@ -40,11 +40,6 @@ public:
   // After all walls: vertices to which walls bend come nearer to their planes, where they may by now.
   void straighten();
 
-  struct Figures {
-    std::size_t moved = 0, divided = 0, bent = 0; // vertices, edges, vertices
-  };
-  const Figures& figures() const { return figures_; }
-
 private:
   struct Ball {
     Vec3 middle = Vec3::Zero();
@@ -92,7 +87,6 @@ private:
   const std::function<bool(Dart)>* within_ = nullptr;
   IndexSet bent_;                                     // vertices to which it bends
   std::vector<std::pair<Dart, OrientedPlane>> bends_; // of all walls
-  Figures figures_;
 };
 
 } // namespace rend
