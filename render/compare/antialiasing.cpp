@@ -67,9 +67,9 @@ bool is_smoothed(const Picture& picture, int x, int y, const Picture& other) {
 
 } // namespace
 
-Mask without_smoothed(const Picture& a, const Picture& b, const Mask& mask, std::size_t& left_out) {
+PixelMask without_smoothed(const Picture& a, const Picture& b, const PixelMask& mask, std::size_t& left_out) {
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
-  Mask out = mask;
+  PixelMask out = mask;
   if (out.counts.empty()) out.counts.assign(a.pixels(), 1);
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {

@@ -19,6 +19,6 @@ namespace rend {
 
 // The mask, without the pixels that differ and are smoothed in a or b; their number is added to `left_out`.
 // Pictures of one size, without alpha (CHECK).
-Mask without_smoothed(const Picture& a, const Picture& b, const Mask& mask, std::size_t& left_out);
+PixelMask without_smoothed(const Picture& a, const Picture& b, const PixelMask& mask, std::size_t& left_out);
 
 } // namespace rend

@@ -130,7 +130,7 @@ PngInfo head_of_mask(const fs::path& path, const PngInfo& picture) {
   return head;
 }
 
-Mask read_mask(const fs::path& path, const PngInfo& head) {
+PixelMask read_mask(const fs::path& path, const PngInfo& head) {
   if (path.empty()) return {};
   return mask_of(picture_of(read_high_depth_png(Side::bytes_of(path, head), path.string())));
 }
@@ -142,7 +142,7 @@ Picture taken(HighDepthImage& image) {
 }
 
 void judge(Sides& sides, bool equal, const PngInfo& mask_head, const CompareOptions& options, CaseResult& out) {
-  const Mask mask = read_mask(options.mask, mask_head);
+  const PixelMask mask = read_mask(options.mask, mask_head);
   Picture a = taken(sides[0].image);
   Picture b = equal ? a : taken(sides[1].image);
   Metrics metrics = measure(std::move(a), std::move(b), mask,

@@ -17,7 +17,7 @@ struct RowDifference {
   std::size_t counted = 0, differing = 0;
 };
 
-RowDifference row_of(const Picture& a, const Picture& b, const Mask& mask, int y, float* largest) {
+RowDifference row_of(const Picture& a, const Picture& b, const PixelMask& mask, int y, float* largest) {
   RowDifference row;
   const std::size_t start = static_cast<std::size_t>(y) * a.width, channels = a.alpha ? 4 : 3;
   for (int x = 0; x < a.width; ++x) {
@@ -43,7 +43,7 @@ RowDifference row_of(const Picture& a, const Picture& b, const Mask& mask, int y
 
 } // namespace
 
-Difference difference_of(const Picture& a, const Picture& b, const Mask& mask, int threads) {
+Difference difference_of(const Picture& a, const Picture& b, const PixelMask& mask, int threads) {
   CHECK(a.width == b.width && a.height == b.height && a.alpha == b.alpha);
   Difference out;
   out.largest.resize(a.pixels());

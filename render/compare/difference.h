@@ -26,6 +26,6 @@ struct Difference {
 };
 
 // Pictures of one size, both with alpha or neither (CHECK).
-Difference difference_of(const Picture& a, const Picture& b, const Mask& mask, int threads);
+Difference difference_of(const Picture& a, const Picture& b, const PixelMask& mask, int threads);
 
 } // namespace rend

@@ -24,7 +24,7 @@ constexpr std::array<Rgb, 9> magma{{{0, 0, 4},
 
 } // namespace
 
-Image heat_of(const Levels& map, int width, int height, const Mask& mask) {
+Image heat_of(const Levels& map, int width, int height, const PixelMask& mask) {
   Image image(width, height);
   CHECK(map.size() * 3 == image.pixels.size());
   for (std::size_t n = 0; n < map.size(); ++n) {

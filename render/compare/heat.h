@@ -9,6 +9,6 @@
 namespace rend {
 
 // Masked pixels are grey.
-Image heat_of(const Levels& map, int width, int height, const Mask& mask);
+Image heat_of(const Levels& map, int width, int height, const PixelMask& mask);
 
 } // namespace rend

@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-FlipFigures flip_figures(const Levels& map, const Mask& mask) {
+FlipFigures flip_figures(const Levels& map, const PixelMask& mask) {
   std::vector<float> counted;
   counted.reserve(map.size());
   for (std::size_t n = 0; n < map.size(); ++n)
@@ -35,21 +35,21 @@ FlipFigures flip_figures(const Levels& map, const Mask& mask) {
 namespace {
 
 // By what is seen: over white, as pixelmatch does.
-Mask compared_pixels(const Picture& a, const Picture& b, const Mask& mask, Metrics& out) {
+PixelMask compared_pixels(const Picture& a, const Picture& b, const PixelMask& mask, Metrics& out) {
   if (!a.alpha && !b.alpha) return without_smoothed(a, b, mask, out.smoothed);
   return without_smoothed(over_white(a), over_white(b), mask, out.smoothed);
 }
 
 } // namespace
 
-Metrics measure(Picture a, Picture b, const Mask& given, const MeasureOptions& options) {
+Metrics measure(Picture a, Picture b, const PixelMask& given, const MeasureOptions& options) {
   CHECK(a.width == b.width && a.height == b.height);
   if (a.alpha || b.alpha) {
     add_alpha(a);
     add_alpha(b);
   }
   Metrics out;
-  const Mask mask = options.leave_out_smoothed ? compared_pixels(a, b, given, out) : given;
+  const PixelMask mask = options.leave_out_smoothed ? compared_pixels(a, b, given, out) : given;
   mask_out(mask, a, b);
   out.difference = difference_of(a, b, mask, options.threads);
   out.over = over_threshold(out.difference, a.width, a.height, options.threshold, options.window_side);

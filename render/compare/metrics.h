@@ -29,6 +29,6 @@ struct MeasureOptions {
 };
 
 // Two pictures of one size (CHECK). Masked pixels enter no metric. The same on any number of threads.
-Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options);
+Metrics measure(Picture a, Picture b, const PixelMask& mask, const MeasureOptions& options);
 
 } // namespace rend

@@ -34,14 +34,14 @@ Picture over_white(Picture picture) {
   return picture;
 }
 
-Mask mask_of(const Picture& picture) {
-  Mask mask;
+PixelMask mask_of(const Picture& picture) {
+  PixelMask mask;
   mask.counts.resize(picture.pixels());
   for (std::size_t n = 0; n < mask.counts.size(); ++n) mask.counts[n] = picture.planes[0][n] >= 127.5f ? 1 : 0;
   return mask;
 }
 
-void mask_out(const Mask& mask, const Picture& a, Picture& b) {
+void mask_out(const PixelMask& mask, const Picture& a, Picture& b) {
   CHECK(a.alpha == b.alpha && a.pixels() == b.pixels());
   if (mask.counts.empty()) return;
   CHECK(mask.counts.size() == a.pixels());

@@ -29,18 +29,18 @@ Picture picture_of(const HighDepthImage& image);
 Picture over_white(Picture picture);
 
 // The pixels that are compared.
-struct Mask {
+struct PixelMask {
   std::vector<std::uint8_t> counts; // height x width: 1 is compared, 0 is not; empty: all are compared
 
   bool operator[](std::size_t pixel) const { return counts.empty() || counts[pixel] != 0; }
 };
 
 // White is compared, black is not: a pixel whose red, over black, is below 128 is masked out.
-Mask mask_of(const Picture& picture);
+PixelMask mask_of(const Picture& picture);
 
 // Sets masked pixels of `b` to those of `a`, so that they cannot influence their neighbours through the filters
 // of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
-void mask_out(const Mask& mask, const Picture& a, Picture& b);
+void mask_out(const PixelMask& mask, const Picture& a, Picture& b);
 
 // Adds an alpha plane to an opaque picture.
 void add_alpha(Picture& picture);

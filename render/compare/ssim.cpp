@@ -56,7 +56,8 @@ struct Window {
 };
 
 // The windows whose top row is y.
-Total total_of(const Levels& a, const Levels& b, const Mask& mask, int width, int y, const Window& window) {
+Total total_of(const Levels& a, const Levels& b, const PixelMask& mask, int width, int y,
+               const Window& window) {
   const auto row = static_cast<std::size_t>(width);
   Sums sums(row);
   std::vector<double> scratch(row);
@@ -77,7 +78,7 @@ Total total_of(const Levels& a, const Levels& b, const Mask& mask, int width, in
 
 } // namespace
 
-double ssim_of(const Picture& a, const Picture& b, const Mask& mask, int threads) {
+double ssim_of(const Picture& a, const Picture& b, const PixelMask& mask, int threads) {
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
   const Window window{std::min(window_side, a.width), std::min(window_side, a.height)};
   std::vector<Total> rows(static_cast<std::size_t>(a.height - window.down + 1));

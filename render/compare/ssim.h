@@ -16,6 +16,6 @@ namespace rend {
 
 // Opaque pictures of one size (CHECK). With a mask: over the windows whose centre is unmasked; 1 if there is
 // none. A side of less than 7 pixels is spanned by the window.
-double ssim_of(const Picture& a, const Picture& b, const Mask& mask, int threads);
+double ssim_of(const Picture& a, const Picture& b, const PixelMask& mask, int threads);
 
 } // namespace rend

@@ -14,7 +14,7 @@ using namespace test;
 
 TEST(Difference, is_what_its_formulas_say) {
   const Picture a = noise(37, 21, 1), b = noise(37, 21, 2);
-  for (const Mask& mask : {Mask{}, every(a, 2), every(a, 5)}) {
+  for (const PixelMask& mask : {PixelMask{}, every(a, 2), every(a, 5)}) {
     double sum = 0, squares = 0, most = 0, count = 0;
     for (std::size_t n = 0; n < a.pixels(); ++n)
       for (std::size_t c = 0; c < 3 && mask[n]; ++c) {
@@ -106,7 +106,7 @@ TEST(WeightedPercentiles, are_those_of_the_sorted_values) {
 TEST(Mask, leaves_out_pixels_and_what_they_would_do_to_others) {
   const Picture a = noise(40, 40, 1);
   Picture b = a;
-  Mask mask;
+  PixelMask mask;
   mask.counts.assign(a.pixels(), 1);
   for (std::size_t n = 0; n < 800; n += 7) {
     b.planes[1][n] = 255 - b.planes[1][n];

@@ -28,8 +28,8 @@ inline Picture noise(int width, int height, unsigned seed) {
   return picture;
 }
 
-inline Mask every(const Picture& picture, int nth) {
-  Mask mask;
+inline PixelMask every(const Picture& picture, int nth) {
+  PixelMask mask;
   mask.counts.assign(picture.pixels(), 1);
   for (std::size_t n = 0; n < mask.counts.size(); n += static_cast<std::size_t>(nth)) mask.counts[n] = 0;
   return mask;

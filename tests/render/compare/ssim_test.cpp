@@ -30,7 +30,7 @@ double of_window(const Picture& a, const Picture& b, std::size_t c, int x, int y
   return (2 * mp * mq + c1) * (2 * vpq + c2) / ((mp * mp + mq * mq + c1) * (vp + vq + c2));
 }
 
-double by_windows(const Picture& a, const Picture& b, const Mask& mask) {
+double by_windows(const Picture& a, const Picture& b, const PixelMask& mask) {
   const int across = std::min(7, a.width), down = std::min(7, a.height);
   double sum = 0;
   int count = 0;
