@@ -175,7 +175,9 @@ BatchSettings batch_settings(const ElementType& root, const std::vector<std::str
   BatchSettings out;
   for (const std::string& text : sets) {
     const Override one = parse_override(text);
-    const bool is_text = overridden(root, one).kind == AttributeKind::Text;
+    const AttributeKind kind = overridden(root, one).kind;
+    const bool is_text = kind == AttributeKind::Text || (kind == AttributeKind::NumberOrExpression &&
+                                                         one.value.find('(') != std::string::npos);
     if (!is_text && one.value.find_first_of(",:") != std::string::npos)
       out.sweeps.push_back(parse_sweep(text));
     else

@@ -87,7 +87,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (!options.allow_path) check_paths(*preset_);
   picture_ = picture_settings(*preset_);
   if (options.fps) picture_.image.fps = *options.fps;
-  scene_ = std::make_unique<Scene>(read_scene(*preset_, has_texture),
+  scene_ = std::make_unique<Scene>(read_scene(*preset_, scene_pictures()),
                                    SceneOptions{.walk = options.kernels == "walk",
                                                 .threads = threads(),
                                                 .count_fragments = options.count_fragments,

@@ -143,6 +143,9 @@ private:
       simple([&] { one_number(attribute); });
       close("xs:union");
       break;
+    case AttributeKind::NumberOrExpression: // whose words the schema does not know
+      line(R"(<xs:restriction base="xs:string"/>)");
+      break;
     }
     close("xs:simpleType");
   }

@@ -4,7 +4,7 @@
 #include "render/draw/finish.h"
 #include "render/draw/frame.h"
 #include "render/picture/colour.h"
-#include "sim/build/shape.h"
+#include "sim/build/picture_frame.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,13 +16,6 @@ namespace rend {
 enum class ColourBy { Plain, Strain, Stress, Force, Fragment };
 // What is drawn of it.
 enum class DrawStyle { Surface, Wires, Exploded, Darts };
-
-// The frame in which the pictures of a body lie: that of its shape, before <place> scales, rotates and moves
-// it.
-struct TextureFrame {
-  Placement place = {};
-  std::optional<SheetShape> sheet = {}; // it was made as a sheet, over which its picture is spread
-};
 
 struct LookSettings {
   Colour colour{0x2a, 0x7f, 0x8e};

@@ -1,5 +1,6 @@
 #include "render/picture/scene_preset.h"
 
+#include "render/picture/mask_file.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/build/read_settings.h"
@@ -206,6 +207,10 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
 bool has_texture(const PresetNode& body) {
   const PresetNode* look = body.child("look");
   return look && (look->given("texture") || look->given("texture-back") || look->given("roughness"));
+}
+
+ScenePictures scene_pictures() {
+  return {has_texture, read_mask};
 }
 
 PictureSettings picture_settings(const PresetNode& scene) {

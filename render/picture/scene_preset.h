@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/picture/picture_settings.h"
+#include "sim/build/build_scene.h"
 #include "sim/preset/preset_reader.h"
 
 #include <memory>
@@ -24,6 +25,9 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
 
 // Whether pictures lie on the outside of a body, by its <look>.
 bool has_texture(const PresetNode& body);
+
+// What the simulation takes from pictures: read_scene(preset, scene_pictures()).
+ScenePictures scene_pictures();
 
 // What a scene that was loaded here says of its pictures. Messages about it read from the scene for as long as
 // they may come.

@@ -2,88 +2,19 @@
 
 #include "sim/base/math.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace rend {
+
 namespace {
-
 using Eigen::Vector2d;
-
-constexpr double tie = 1e-6; // components of normals that differ by less are equal, up to rounding
-
-std::array<Vec3, 4> corners_of(const SheetShape& sheet) {
-  if (sheet.corners) return *sheet.corners;
-  const auto [lx, ly] = sheet.size.value_or(std::array<double, 2>{1, 1});
-  return {Vec3(0, 0, 0), Vec3(lx, 0, 0), Vec3(lx, ly, 0), Vec3(0, ly, 0)};
 }
-
-bool is_band(const SheetShape& sheet) {
-  return sheet.closure != SheetClosure::None;
-}
-
-} // namespace
 
 TextureMap::TextureMap(const Body& body, const LookSettings& look, double aspect)
-    : places_(find_texture_coordinates(*body.map)), scale_(look.scale[0], look.scale[1]),
-      cosine_(cosine_of_degrees(look.rotate)), sine_(sine_of_degrees(look.rotate)) {
-  std::vector<Vec3> frame{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  look.frame.place.apply(frame);
-  origin_ = frame[0];
-  Eigen::Matrix3d axes; // a rotation times the scale
-  axes << frame[1] - origin_, frame[2] - origin_, frame[3] - origin_;
-  to_own_ = axes.transpose() / (look.frame.place.scale * look.frame.place.scale);
-  if (places_) {
-    size_ = Vector2d(aspect, 1);
-    return;
-  }
-  if (body.map->dimension() == 2) sheet_ = look.frame.sheet;
-  if (sheet_) {
-    corners_ = corners_of(*sheet_);
-    const auto& c = corners_;
-    size_ = is_band(*sheet_) ? Vector2d((*sheet_->size)[0], (*sheet_->size)[1])
-                             : 0.5 * Vector2d((c[1] - c[0]).norm() + (c[2] - c[3]).norm(),
-                                              (c[3] - c[0]).norm() + (c[2] - c[1]).norm());
-    return;
-  }
-  Eigen::AlignedBox3d box;
-  const CellIndex& vertices = body.map->cells(Vertex);
-  for (Slot v = 0; v < vertices.slots(); ++v)
-    if (vertices.alive(v)) box.extend(own(body.map->rest()[v].vec()));
-  middle_ = box.isEmpty() ? Vec3::Zero() : Vec3(box.center());
-  const double extent = box.isEmpty() ? 1 : box.sizes().maxCoeff();
-  size_ = Vector2d(extent, extent / aspect);
-}
-
-bool TextureMap::is_spread_once() const {
-  return sheet_ && is_plain();
-}
-
-Vec3 TextureMap::own(const Vec3& rest) const {
-  return to_own_ * (rest - origin_);
-}
-
-TextureMap::Chart TextureMap::chart(const Vec3& middle, const Vec3& normal) const {
-  Chart chart;
-  if (sheet_) {
-    const Vec3 at = own(middle);
-    if (is_band(*sheet_)) chart.turn = arc_tangent(at.x(), -at.z()) * 180 / pi;
-    if (chart.turn < 0) chart.turn += 360;
-    return chart;
-  }
-  const Vec3 across = to_own_ * normal;
-  const double most = (1 - tie) * across.cwiseAbs().maxCoeff();
-  for (const int axis : {1, 0, 2})
-    if (std::abs(across[axis]) >= most) chart.axis = axis;
-  chart.side = across[chart.axis] < 0 ? -1 : 1;
-  return chart;
-}
+    : places_(find_texture_coordinates(*body.map)), frame_(*body.map, look.frame, aspect),
+      size_(places_ ? Vector2d(aspect, 1) : frame_.size()), scale_(look.scale[0], look.scale[1]),
+      cosine_(cosine_of_degrees(look.rotate)), sine_(sine_of_degrees(look.rotate)) {}
 
 TexturePlace TextureMap::place(const Vec3& rest, const Chart& chart) const {
-  const Vec3 here = own(rest);
-  const Vector2d from_middle =
-      sheet_ ? Vector2d((on_sheet(here, chart) - Vector2d(0.5, 0.5)).cwiseProduct(size_)) : on_box(here, chart);
-  return in_picture(from_middle);
+  return in_picture(frame_.from_middle(rest, chart));
 }
 
 TexturePlace TextureMap::place(const TexturePlace& given) const {
@@ -96,59 +27,6 @@ TexturePlace TextureMap::in_picture(const Vector2d& from_middle) const {
                         cosine_ * from_middle.y() - sine_ * from_middle.x());
   const Vector2d place = turned.cwiseQuotient(scale_.cwiseProduct(size_));
   return {place.x() + 0.5, place.y() + 0.5};
-}
-
-// Upright as seen from outside: to the right of who looks against the face's normal, and up.
-Vector2d TextureMap::on_box(const Vec3& own, const Chart& chart) const {
-  const Vec3 from = own - middle_;
-  switch (chart.axis) {
-  case 0:
-    return {chart.side * from.y(), from.z()};
-  case 1:
-    return {-chart.side * from.x(), from.z()};
-  default:
-    return {chart.side * from.x(), from.y()};
-  }
-}
-
-Vector2d TextureMap::on_sheet(const Vec3& own, const Chart& chart) const {
-  return is_band(*sheet_) ? on_band(own, chart) : on_patch(own);
-}
-
-// The nearest point of the bilinear patch, by Gauss and Newton: exact after one step on a parallelogram.
-Vector2d TextureMap::on_patch(const Vec3& own) const {
-  constexpr int steps = 8;
-  const auto& c = corners_;
-  const Vec3 along = c[1] - c[0], up = c[3] - c[0], twist = c[0] - c[1] + c[2] - c[3];
-  Vector2d at(0.5, 0.5);
-  for (int n = 0; n < steps; ++n) {
-    Eigen::Matrix<double, 3, 2> slopes;
-    slopes << along + at.y() * twist, up + at.x() * twist;
-    const Vec3 away = own - (c[0] + at.x() * along + at.y() * up + at.x() * at.y() * twist);
-    const Eigen::Matrix2d normal = slopes.transpose() * slopes;
-    const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
-    if (!(determinant > 0)) break;
-    const Vector2d right = slopes.transpose() * away;
-    const Vector2d step((normal(1, 1) * right.x() - normal(0, 1) * right.y()) / determinant,
-                        (normal(0, 0) * right.y() - normal(1, 0) * right.x()) / determinant);
-    at += step;
-    at = at.cwiseMax(-1).cwiseMin(2); // never far from the sheet
-    if (twist.isZero(0)) break;
-  }
-  return at;
-}
-
-// sheet.cpp has the points of bands.
-Vector2d TextureMap::on_band(const Vec3& own, const Chart& chart) const {
-  const auto [around, across] = *sheet_->size;
-  const double radius = around / (2 * pi);
-  double degrees = arc_tangent(own.x(), -own.z()) * 180 / pi;
-  // within half a turn of the face's middle
-  degrees += 360 * std::floor((chart.turn - degrees) / 360 + 0.5);
-  const double s = degrees / 360;
-  if (sheet_->closure == SheetClosure::Loop) return {s, own.y() / across + 0.5};
-  const double outwards = std::sqrt(own.x() * own.x() + own.z() * own.z()) - radius;
-  return {s, (cosine_of_degrees(180 * s) * own.y() + sine_of_degrees(180 * s) * outwards) / across + 0.5};
 }
 
 } // namespace rend

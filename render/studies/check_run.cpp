@@ -2,6 +2,7 @@
 
 #include "render/console/signals.h"
 #include "render/files/output.h"
+#include "render/picture/mask_file.h"
 #include "render/picture/scene_preset.h"
 #include "sim/base/stop_request.h"
 #include "sim/base/worker_threads.h"
@@ -51,7 +52,7 @@ std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<Che
   const auto work = [&] {
     try {
       for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
-        results[n] = run_case(cases[n], read);
+        results[n] = run_case(cases[n], read, {.is_textured = {}, .read_mask = read_mask});
         const std::lock_guard lock(one_at_a_time);
         done(n, *results[n]);
       }

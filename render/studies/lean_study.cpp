@@ -28,7 +28,7 @@ public:
     preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.world_element),
                               scene.file.empty() ? scene.name : scene.file, overrides);
     scene_ = std::make_unique<Scene>(
-        read_scene(*preset_, has_texture),
+        read_scene(*preset_, scene_pictures()),
         SceneOptions{.walk = side.walk, .threads = 1, .count_fragments = side.count_fragments});
     if (!bare_) return;
     if (const std::string more = beyond_minimal(*scene_); !more.empty())

@@ -2,6 +2,7 @@
 
 #include "render/console/number_option.h"
 #include "render/help/usage.h"
+#include "render/picture/mask_file.h"
 #include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
 
@@ -153,7 +154,8 @@ std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
   std::shared_ptr<PresetNode> node = source.load(variant);
   SceneOptions options;
   options.guard = false; // too large a step must show as such
-  return {new Scene(read_scene(*node), options), [node](const Scene* scene) { delete scene; }};
+  return {new Scene(read_scene(*node, {.is_textured = {}, .read_mask = read_mask}), options),
+          [node](const Scene* scene) { delete scene; }};
 }
 
 } // namespace

@@ -96,6 +96,12 @@ AttributeType number_or(std::string name, std::vector<std::string> words, std::s
   return type;
 }
 
+AttributeType number_or_expression(std::string name, std::string unit, std::string what) {
+  AttributeType type = attribute_of(AttributeKind::NumberOrExpression, std::move(name), std::move(what));
+  type.unit = std::move(unit);
+  return type;
+}
+
 const AttributeType* ElementType::find(std::string_view attribute) const {
   for (const AttributeType& type : attributes) {
     if (type.name == attribute) return &type;
@@ -148,6 +154,8 @@ std::string expected(const AttributeType& type) {
     return "text";
   case AttributeKind::NumberOrWord:
     return listed(type.words) + ", or a number" + bounds_of(type) + unit;
+  case AttributeKind::NumberOrExpression:
+    return "a number" + bounds_of(type) + unit + ", or an expression of such numbers";
   }
   CHECK(!"a kind of attribute");
   return {};

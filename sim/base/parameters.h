@@ -25,12 +25,13 @@ enum class AttributeKind {
   Number,  // one finite number
   Numbers, // `count` finite numbers, separated by blanks (0: any count)
   Integer,
-  Integers,     // `count` integers
-  Word,         // one of `words`
-  Words,        // any of `words`, separated by blanks
-  Flag,         // yes, no
-  Text,         // anything
-  NumberOrWord, // a number, or one of `words` (step="auto")
+  Integers,           // `count` integers
+  Word,               // one of `words`
+  Words,              // any of `words`, separated by blanks
+  Flag,               // yes, no
+  Text,               // anything
+  NumberOrWord,       // a number, or one of `words` (step="auto")
+  NumberOrExpression, // a number, or an expression, which whoever uses it compiles
 };
 
 struct AttributeType {
@@ -65,6 +66,7 @@ AttributeType words_of(std::string name, std::vector<std::string> words, std::st
 AttributeType flag(std::string name, std::string what);
 AttributeType text(std::string name, std::string what);
 AttributeType number_or(std::string name, std::vector<std::string> words, std::string unit, std::string what);
+AttributeType number_or_expression(std::string name, std::string unit, std::string what);
 
 struct ElementType;
 
@@ -91,7 +93,7 @@ struct AttributeValue {
   std::string text; // trimmed (Text: as written)
   std::vector<double> numbers;
   std::vector<std::string> words;
-  bool word = false; // NumberOrWord: the value is a word
+  bool word = false; // NumberOrWord, NumberOrExpression: the value is no number
 };
 
 // What a value must be, for messages and help: "2 whole numbers, each of at least 1", "auto, or a number above

@@ -111,6 +111,12 @@ struct PresetNode::Reading {
            std::find(type.words.begin(), type.words.end(), token) == type.words.end();
   }
 
+  // Also of one that is too large, or not finite.
+  static bool is_number(std::string_view token) {
+    double out = 0;
+    return parse(token, out) != std::errc::invalid_argument;
+  }
+
   Value read() const {
     Value value;
     value.text = type.kind == AttributeKind::Text ? std::string_view(text) : trimmed(text);
@@ -146,6 +152,10 @@ struct PresetNode::Reading {
         word(value.text);
       else
         value.numbers = {number(value.text)};
+      break;
+    case AttributeKind::NumberOrExpression:
+      value.word = !is_number(value.text);
+      if (!value.word) value.numbers = {number(value.text)};
       break;
     case AttributeKind::Text:
       break;

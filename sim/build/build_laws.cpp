@@ -1,5 +1,6 @@
 #include "sim/build/build_laws.h"
 
+#include "sim/build/body_at_rest.h"
 #include "sim/fracture/pairs.h"
 #include "sim/fracture/rule_change.h"
 
@@ -81,7 +82,8 @@ LawSettings completed(LawSettings law, Body& body, const BodySettings& settings)
                   "of every kind");
   std::optional<double> walls;
   if (settings.pieces && law.rule.empty() && parts_walls(law)) walls = settings.pieces->strength;
-  law.by_place = Strength::of(law.strength, law.cell, walls, *body.map, body.groups, source);
+  law.by_place = Strength::of(law.strength, law.cell, walls,
+                              body_at_rest(body, settings, law.strength.of_expression), source);
   if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }

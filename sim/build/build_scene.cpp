@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace rend {
@@ -26,6 +27,37 @@ std::set<std::string> probes_of(const SceneDefinition& scene) {
   return names;
 }
 
+// Reads each picture once.
+class Masks {
+public:
+  Masks(const MaskReader& read, std::filesystem::path folder) : read_(read), folder_(std::move(folder)) {}
+
+  void give(BodySettings& body) {
+    give(body.mass.of_expression, body.mass.density_by_place, body.mass.source);
+    for (LawSettings& law : body.tears)
+      give(law.strength.of_expression, strength_expression(law.strength, false).value_or(""), law.source);
+  }
+
+private:
+  void give(ExpressionSettings& expression, const std::string& text, const SettingsSource& source) {
+    if (expression.picture.empty() || !read_ || !asks_for_picture(text)) return;
+    const std::filesystem::path path = (folder_ / expression.picture).lexically_normal();
+    std::shared_ptr<const Mask>& mask = known_[path];
+    try {
+      if (!mask) mask = read_(path);
+    } catch (const UserError& error) { // which names the file
+      throw UserError(error.code, source.place("picture"), error.what(),
+                      error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
+                                                  : error.hint);
+    }
+    expression.mask = mask;
+  }
+
+  const MaskReader& read_;
+  std::filesystem::path folder_; // of the preset
+  std::map<std::filesystem::path, std::shared_ptr<const Mask>> known_;
+};
+
 } // namespace
 
 Body& add_body(SceneDefinition& scene, const BodySettings& settings) {
@@ -42,17 +74,19 @@ Body& add_body(SceneDefinition& scene, const BodySettings& settings) {
   return *scene.bodies.back();
 }
 
-SceneDefinition read_scene(const PresetNode& preset, const TextureChoice& is_textured) {
+SceneDefinition read_scene(const PresetNode& preset, const ScenePictures& pictures) {
   const double start = wall_clock();
   SceneDefinition scene;
   scene.name = preset.text("name");
   scene.world = read_world(preset.child("world"));
   const RuleBook rules = read_rules(preset);
+  Masks masks(pictures.read_mask, std::filesystem::path(preset.place().file).parent_path());
   for (const PresetNode* node : preset.all("body")) {
     BodySettings body = read_body(*node);
     body.rules = rules;
     if (auto* mesh = std::get_if<MeshSettings>(&body.shape))
-      mesh->texture_coordinates = is_textured && is_textured(*node);
+      mesh->texture_coordinates = pictures.is_textured && pictures.is_textured(*node);
+    masks.give(body);
     add_body(scene, body);
   }
   scene.time = read_settings<TimeSettings>(*preset.child("time"));

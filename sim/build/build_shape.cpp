@@ -1,6 +1,7 @@
 #include "sim/build/build_shape.h"
 
 #include "sim/base/reach.h"
+#include "sim/build/body_at_rest.h"
 #include "sim/build/construction.h"
 
 #include <fmt/format.h>
@@ -36,14 +37,14 @@ double extent(const EmbeddedMap& map) {
 void check(const MassSettings& mass, bool sheet) {
   check_settings(mass);
   const SettingsSource& source = mass.source;
-  if (mass.total.has_value() == mass.density.has_value())
+  if (mass.total.has_value() == mass.has_density())
     source.fail("", mass.total ? "<mass> has both total and density" : "<mass> needs total or density",
                 sheet ? "total=\"0.1\", or density=\"300\" with thickness=\"0.001\""
                       : "total=\"0.1\", or density=\"1000\"");
   if (!sheet && mass.thickness)
     source.fail("thickness", "thickness of <mass> has no use in a solid, whose volume is known",
                 "leave it out");
-  if (sheet && mass.density && !mass.thickness)
+  if (sheet && mass.has_density() && !mass.thickness)
     source.fail("", "the density of a sheet needs its thickness", "thickness=\"0.001\"");
   if (mass.total && mass.thickness)
     source.fail("thickness", "thickness of <mass> has no use where the total mass is given",
@@ -57,15 +58,34 @@ KeepStart keep_start(const BodySettings& settings) {
   return asked ? KeepStart::Yes : KeepStart::No;
 }
 
-void build_mass(Body& body, const MassSettings& settings) {
+void build_mass(Body& body, const BodySettings& settings) {
+  const MassSettings& how = settings.mass;
   const bool sheet = body.map->dimension() == 2;
-  check(settings, sheet);
+  check(how, sheet);
   CornerMass mass;
-  if (settings.total)
-    mass.density = *settings.total / extent(*body.map);
+  if (how.total)
+    mass.density = *how.total / extent(*body.map);
   else
-    mass.density = sheet ? *settings.density * *settings.thickness : *settings.density;
+    mass.density = how.density.value_or(1) * (sheet ? *how.thickness : 1);
+  if (how.density_by_place.empty()) {
+    ElementExpression::refuse_unused(density_quantity(), how.source);
+    body.mass = &body.map->add(mass.on(*body.map));
+    return;
+  }
+  const auto density =
+      std::make_shared<ElementExpression>(how.density_by_place, how.of_expression, density_quantity(),
+                                          body_at_rest(body, settings, how.of_expression), how.source);
+  mass.by_place = density;
   body.mass = &body.map->add(mass.on(*body.map));
+  density->forget_groups();
+}
+
+// Which keeps texture coordinates of a mesh file also where an expression uses them.
+ShapeSettings shape_to_make(const BodySettings& settings) {
+  ShapeSettings shape = settings.shape;
+  auto* const mesh = std::get_if<MeshSettings>(&shape);
+  if (mesh && asks_for_picture_place(settings)) mesh->texture_coordinates = true;
+  return shape;
 }
 
 } // namespace
@@ -81,8 +101,8 @@ void build_shape(Body& body, const BodySettings& settings) {
                     keep_start(settings), shape.source);
         check_reach(body, shape.source);
       },
-      settings.shape);
-  build_mass(body, settings.mass);
+      shape_to_make(settings));
+  build_mass(body, settings);
 }
 
 } // namespace rend

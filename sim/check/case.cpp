@@ -40,14 +40,14 @@ bool Finding::holds() const {
 Trial Bench::open(const Sets& sets, SceneOptions options) const {
   Trial trial;
   trial.preset = (*read_)(*case_, nullptr, sets);
-  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset), options);
+  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset, *pictures_), options);
   return trial;
 }
 
 Trial Bench::open_text(const std::string& preset) const {
   Trial trial;
   trial.preset = (*read_)(*case_, &preset, {});
-  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset), SceneOptions{});
+  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset, *pictures_), SceneOptions{});
   return trial;
 }
 
@@ -59,7 +59,7 @@ const std::vector<CheckFamily>& all_families() {
   return list;
 }
 
-CheckResult run_case(const CheckCase& which, const ReadPreset& read) {
+CheckResult run_case(const CheckCase& which, const ReadPreset& read, const ScenePictures& pictures) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   CheckResult result;
@@ -70,7 +70,7 @@ CheckResult run_case(const CheckCase& which, const ReadPreset& read) {
     finding.why = why;
   };
   try {
-    which.run(Bench(which, read), finding);
+    which.run(Bench(which, read, pictures), finding);
     if (finding.verdict != Verdict::Failed && !finding.holds())
       fail(finding.what.empty() ? "a figure lies outside of its bounds" : finding.what, finding.why);
   } catch (const UserError& error) {

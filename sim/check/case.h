@@ -14,6 +14,7 @@
 // all_families().
 #pragma once
 
+#include "sim/build/build_scene.h"
 #include "sim/scene/scene.h"
 
 #include <functional>
@@ -74,7 +75,8 @@ using ReadPreset =
 // Opens the scenes of a case.
 class Bench {
 public:
-  Bench(const CheckCase& which, const ReadPreset& read) : case_(&which), read_(&read) {}
+  Bench(const CheckCase& which, const ReadPreset& read, const ScenePictures& pictures)
+      : case_(&which), read_(&read), pictures_(&pictures) {}
   // Throws UserError if the preset is refused.
   Trial open(const Sets& sets = {}, SceneOptions options = {}) const;
   Trial open_text(const std::string& preset) const; // another preset than the case's, for comparison
@@ -82,6 +84,7 @@ public:
 private:
   const CheckCase* case_;
   const ReadPreset* read_;
+  const ScenePictures* pictures_;
 };
 
 struct CheckCase {
@@ -108,6 +111,6 @@ struct CheckResult {
   double seconds = 0;
 };
 // Runs a case; an exception becomes a finding.
-CheckResult run_case(const CheckCase& which, const ReadPreset& read);
+CheckResult run_case(const CheckCase& which, const ReadPreset& read, const ScenePictures& pictures = {});
 
 } // namespace rend

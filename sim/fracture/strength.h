@@ -2,18 +2,13 @@
 //
 //   value > threshold · s(cell)
 //
-// s of an element (a face of a sheet, a volume of a solid) is an expression of the middle X of its vertices
-// at rest, evaluated when the body is built, and for elements that a rule makes of nothing when they are
-// made. What is made of one element is as strong as that was, of several as their mean; what is merged as the
-// weaker. s of a vertex, an edge or a border is the least of the elements at it: what is held by several
-// breaks with the weakest.
+// s of an element (a face of a sheet, a volume of a solid) is an expression of the place of the element at
+// rest (mechanics/element_expression.h), evaluated when the body is built, and for elements that a rule makes
+// of nothing when they are made. What is made of one element is as strong as that was, of several as their
+// mean; what is merged as the weaker. s of a vertex, an edge or a border is the least of the elements at it:
+// what is held by several breaks with the weakest. A law that names a picture, and no strength, has
 //
-//   rest              X [m]; its coordinates are x(rest), y(rest), z(rest)
-//   random            one draw for each element of the start, between 0 and 1: a hash of X and of the seed
-//   weibull(m)        (V/v)^(1/m) (−ln(1 − random))^(1/m), v: volume (area) of the element, V: of the body,
-//                     both at rest; or V as given: weibull(m, V) [m³, m²]
-//   in(name)          whether all vertices of the element are in this group of the mesh file; no element that
-//                     is made later, and not of others, is
+//   s = 0.1 + 0.9 picture        black is a tenth as strong as white
 //
 // With weibull(m) a body of N elements breaks at its weakest one with the probability
 //
@@ -34,9 +29,9 @@
 #pragma once
 
 #include "sim/embedding/selector.h"
-#include "sim/expression/expression.h"
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/piece.h"
+#include "sim/mechanics/element_expression.h"
 
 #include <algorithm>
 #include <memory>
@@ -45,41 +40,23 @@
 namespace rend {
 
 struct StrengthSettings {
-  Selector where = {};     // none: everywhere
-  std::string factor = {}; // s; empty: 1
-  int seed = 0;            // of random
+  Selector where = {};                   // none: everywhere
+  std::string factor = {};               // s; empty: 1, or that of the picture
+  ExpressionSettings of_expression = {}; // its seed and its picture
 };
 template <> const Fields<StrengthSettings>& fields_of();
 
-// s as a function of the place.
-class StrengthExpression {
-public:
-  // UserError: no such expression, no such group, weibull of what is not above 0.
-  StrengthExpression(const StrengthSettings& settings, EmbeddedMap& map, const VertexGroups& groups,
-                     const SettingsSource& source);
-  // UserError, also in the midst of a run: not above 1e-6, or not finite.
-  double at(const EmbeddedMap& map, Dart element) const;
-  bool draws() const;                       // random or weibull
-  void forget_groups() { groups_.clear(); } // their slots are those of the start
+// The expression, also where it is that of a picture; nullopt: none. `given`: one is written in a preset.
+std::optional<std::string> strength_expression(const StrengthSettings& settings, bool given);
 
-private:
-  struct Element;
-  double random_at(const Vec3& middle) const;
-  Value supply(const ExpressionCall& call, std::span<const Value> arguments, const Element& element) const;
-
-  Expression expression_;
-  int seed_;
-  double size_ = 0; // [m³], of a sheet [m²]: of the body at rest
-  VertexGroups groups_;
-  SettingsSource source_;
-};
+ElementQuantity strength_quantity();
 
 struct ElementStrength {
   using Value = double;
   std::string name = "strength";
   Orbit orbit = FaceOfVolume;
   Orbit support = SingleDart; // what moves its corners does not change it
-  std::shared_ptr<const StrengthExpression> expression = {};
+  std::shared_ptr<const ElementExpression> expression = {};
   Value birth(const EmbeddedMap& map, Dart d) const { return expression->at(map, d); }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value& absorbed) const { return std::min(kept, absorbed); }
@@ -110,8 +87,7 @@ public:
   // `walls`: their strength; none: they are as strong as all else. Null: it is the same everywhere, and
   // nothing is stored. UserError: as above; no such vertices, or no cell of which all are selected.
   static std::shared_ptr<Strength> of(const StrengthSettings& settings, Cell cell, std::optional<double> walls,
-                                      EmbeddedMap& map, const VertexGroups& groups,
-                                      const SettingsSource& source);
+                                      const BodyAtRest& body, const SettingsSource& source);
 
   void rebind();                          // after a change of the map
   double least() const { return least_; } // of all elements and walls

@@ -6,21 +6,54 @@
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <array>
 
 namespace rend {
 
+namespace {
+
+// A number, or an expression.
+Field<MassSettings> density_field() {
+  const AttributeType type =
+      number_or_expression("density", "kg/m3",
+                           "density, instead of total; a sheet needs its thickness as well. It may differ from "
+                           "element to element: an expression of rest (the middle of the element [m]), u and v "
+                           "(its place in a picture, 0 to 1), picture, random, in(group), noise(...)")
+          .above(0)
+          .at_most(heaviest);
+  return {type,
+          [](MassSettings& mass, const AttributeValue& value) {
+            if (value.word)
+              mass.density_by_place = value.text;
+            else
+              mass.density = value.numbers.at(0);
+          },
+          [type](const MassSettings& mass, const SettingsSource& source) {
+            if (mass.density) fields::check_numbers(type, std::array{*mass.density}, source);
+          }};
+}
+
+} // namespace
+
 template <> const Fields<MassSettings>& fields_of() {
   using S = MassSettings;
-  static const Fields<S> fields{
-      field(
-          &S::total,
-          number("total", "kg", "mass of the whole body, spread by area or volume").above(0).at_most(heaviest)),
-      field(&S::density,
-            number("density", "kg/m3", "density, instead of total; a sheet needs its thickness as well")
-                .above(0)
-                .at_most(heaviest)),
-      field(&S::thickness, number("thickness", "m", "thickness of the sheet").above(0))};
+  static const Fields<S> fields =
+      Fields<S>{field(&S::total, number("total", "kg", "mass of the whole body, spread by area or volume")
+                                     .above(0)
+                                     .at_most(heaviest)),
+                density_field(),
+                field(&S::thickness, number("thickness", "m", "thickness of the sheet").above(0))} +
+      fields_of_part(&S::of_expression);
   return fields;
+}
+
+ElementQuantity density_quantity() {
+  return {.element = "mass",
+          .attribute = "density",
+          .above = 0,
+          .most = heaviest,
+          .hint = "max(100, ...) keeps it above 100 kg/m3",
+          .example = "density=\"200 + 800*picture\""};
 }
 
 template <> const Fields<ViscositySettings>& fields_of() {
@@ -34,9 +67,10 @@ template <> const Fields<ViscositySettings>& fields_of() {
 }
 
 double CornerMass::birth(const EmbeddedMap& map, Dart d) const {
-  if (map.dimension() == 3) return density * rest_volume(map, d) / corners_of_volume(map.map(), d);
-  const int sides = sides_of_face(map.map(), d);
-  return sides == 0 ? 0 : density * rest_area(map, d) / sides;
+  const int corners = map.dimension() == 3 ? corners_of_volume(map.map(), d) : sides_of_face(map.map(), d);
+  if (corners == 0) return 0;
+  const double there = by_place ? density * by_place->at(map, d) : density;
+  return there * (map.dimension() == 3 ? rest_volume(map, d) : rest_area(map, d)) / corners;
 }
 
 CornerMass CornerMass::on(const EmbeddedMap& map) const {

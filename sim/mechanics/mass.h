@@ -9,17 +9,24 @@
 
 #include "sim/base/settings.h"
 #include "sim/embedding/cell_size.h"
+#include "sim/mechanics/element_expression.h"
 
 namespace rend {
 
-// Either total or density.
+// One of total, density and density_by_place.
 struct MassSettings {
-  std::optional<double> total = {};     // [kg], spread by area or volume
-  std::optional<double> density = {};   // [kg/m³]
-  std::optional<double> thickness = {}; // [m], of a sheet that has a density
+  std::optional<double> total = {};      // [kg], spread by area or volume
+  std::optional<double> density = {};    // [kg/m³]
+  std::string density_by_place = {};     // [kg/m³], an expression: element_expression.h; empty: none
+  ExpressionSettings of_expression = {}; // its seed and its picture
+  std::optional<double> thickness = {};  // [m], of a sheet that has a density
   SettingsSource source = {};
+
+  bool has_density() const { return density || !density_by_place.empty(); }
 };
 template <> const Fields<MassSettings>& fields_of();
+
+ElementQuantity density_quantity();
 
 struct ViscositySettings {
   double value = 0; // [N·s/m]
@@ -33,14 +40,16 @@ constexpr Orbit corner_orbit(int dimension) {
   return dimension == 2 ? VertexOfFace : VertexOfVolume;
 }
 
-// Element mass / number of corners [kg]. The default orbit and support are those of a sheet; on() sets those of
-// a map.
+// Element mass / number of corners [kg]. An element has the density that there is in its middle. The default
+// orbit and support are those of a sheet; on() sets those of a map.
 struct CornerMass {
   using Value = double;
   std::string name = "corner mass";
   Orbit orbit = VertexOfFace;
   Orbit support = FaceOfVolume;
   double density = 0; // [kg/m²] of a sheet, [kg/m³] of a solid
+  // By which it is multiplied, then a thickness [m] of a sheet, or 1; null: 1 everywhere.
+  std::shared_ptr<const ElementExpression> by_place = {}; // [kg/m³]
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
   static constexpr Inheritance inheritance = Inheritance::Share;

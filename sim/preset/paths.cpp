@@ -61,21 +61,26 @@ std::filesystem::path FileOfPreset::path() const {
 
 std::string FileOfPreset::noun() const {
   return node->name() == "mesh" || node->name() == "obstacle" ? "mesh"
-         : node->name() == "look"                             ? "picture"
-                                                              : "file";
+         : node->name() == "rules"                            ? "file"
+                                                              : "picture";
 }
 
-// A <look> may come from the command line alone: its files are relative to the scene's own.
+// An attribute that names a picture may come from the command line alone: its file is relative to the scene's.
 std::vector<FileOfPreset> files_of(const PresetNode& scene) {
   std::vector<FileOfPreset> files;
   const fs::path folder = fs::path(scene.place().file).parent_path();
+  const auto add_picture = [&](const PresetNode& node, const char* attribute) {
+    if (node.find(attribute) && !node.text(attribute).empty()) files.push_back({&node, attribute, folder});
+  };
   for (const PresetNode* rules : scene.all("rules")) files.push_back(file_of(*rules));
   for (const PresetNode* body : scene.all("body")) {
     for (const PresetNode* mesh : body->all("mesh")) files.push_back(file_of(*mesh));
+    for (const char* element : {"mass", "tear"})
+      for (const PresetNode* node : body->all(element)) add_picture(*node, "picture");
     for (const PresetNode* look : body->all("look"))
       for (const char* attribute :
            {"texture", "texture-back", "texture-inside", "roughness", "roughness-inside"})
-        if (look->find(attribute) && !look->text(attribute).empty()) files.push_back({look, attribute, folder});
+        add_picture(*look, attribute);
   }
   for (const PresetNode* world : scene.all("world"))
     for (const PresetNode* obstacle : world->all("obstacle")) files.push_back(file_of(*obstacle));

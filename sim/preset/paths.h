@@ -14,8 +14,8 @@ namespace rend {
 // links: false for an absolute name, for "..", and for a symbolic link that leads out.
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-// UserError, at the attribute, for a <mesh>, <obstacle>, <rules> or <look> of a preset that names a file
-// which does not stay below its folder.
+// UserError, at the attribute, for an element of a preset that names a file which does not stay below its
+// folder (files_of).
 void check_paths(const PresetNode& scene);
 
 // Whether `path`, after following links, is `folder` or is below it. A file that does not exist is located by
@@ -27,7 +27,7 @@ bool lies_in(const std::filesystem::path& path, const std::filesystem::path& fol
 std::filesystem::path mesh_path(const Place& preset, const std::string& file);
 std::filesystem::path named_path(const PresetNode& node);
 
-// A file that an element of a scene names: a mesh, a file of rules, or the picture of a look.
+// A file that an element of a scene names: a mesh, a file of rules, or a picture of a look, a mass or a law.
 struct FileOfPreset {
   const PresetNode* node = nullptr;
   std::string attribute;        // that names it

@@ -35,10 +35,11 @@ struct Loaded {
   Body& body(std::size_t n = 0) const { return *scene->bodies()[n]; }
 };
 
-inline Loaded load(const std::string& xml, const SceneOptions& options = {}) {
+inline Loaded load(const std::string& xml, const SceneOptions& options = {},
+                   const ScenePictures& pictures = {}) {
   Loaded loaded;
   loaded.preset = read_preset_text(xml, "test.xml", scene_type());
-  loaded.scene = std::make_unique<Scene>(read_scene(*loaded.preset), options);
+  loaded.scene = std::make_unique<Scene>(read_scene(*loaded.preset, pictures), options);
   return loaded;
 }
 

@@ -29,7 +29,7 @@ struct Shown {
     write_png(folder / "other.png", test::pattern(30, 20));
     preset = load_scene_text(R"(<scene name="shown"><body>)" + body + "</body>" + time + "</scene>",
                              (folder / "shown.xml").string());
-    scene = std::make_unique<Scene>(read_scene(*preset, has_texture), SceneOptions{});
+    scene = std::make_unique<Scene>(read_scene(*preset, scene_pictures()), SceneOptions{});
     maker = std::make_unique<FrameBuilder>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   Body& body() const { return *scene->bodies()[0]; }
