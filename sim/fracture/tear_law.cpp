@@ -66,9 +66,15 @@ template <> const Fields<LawSettings>& fields_of() {
                   .at_most(0.2)),
           field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
           field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
+          field(&S::max_per_step,
+                integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0)),
           field(
-              &S::max_per_step,
-              integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))} +
+              &S::min_piece,
+              number("min-piece", "",
+                     "nothing is torn off that has less than this share of the mass of the body; a change that "
+                     "would is not made")
+                  .at_least(0)
+                  .at_most(0.5))} +
       fields_of_part(&S::strength) + fields_of_part(&S::grain);
   return fields;
 }
@@ -104,6 +110,8 @@ thread_local TouchedDarts touched;
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
     : settings_(settings), transfer_(&transfer(settings.cell, settings.change->cell, request.map.dimension())),
       criterion_(settings.criterion->make(request)) {
+  if (settings_.min_piece > 0)
+    least_piece_.emplace(settings_.min_piece * total_mass(request.map, request.mass));
   if (settings_.change->memory || std::isinf(settings_.threshold)) return;
   const ChangeType& change = *settings_.change; // as a rule, it is one of this law alone then
   settings_.by_rule = change.of_law ? change.of_law(request) : counted(change);
@@ -185,6 +193,7 @@ void TearLaw::store(Archive& archive, double now) {
     refuse_unless(reached_.value >= 0 && reached_.time >= 0 && reached_.time <= now,
                   "the largest value of a law is negative, or was reached in the future");
   if (const auto& memory = settings_.change->memory) memory->store(archive);
+  if (least_piece_) archive(too_small_);
 }
 
 void TearLaw::rebind(const Changes& changes) {
@@ -204,9 +213,10 @@ std::size_t TearLaw::bytes() const {
          places_.bytes();
 }
 
-const Refusals& TearLaw::refusals() const {
-  static const Refusals none;
-  return settings_.change->memory ? settings_.change->memory->refusals() : none;
+Refusals TearLaw::refusals() const {
+  Refusals all = settings_.change->memory ? settings_.change->memory->refusals() : Refusals{};
+  if (too_small_ > 0) all["it would tear off a piece of less than min-piece of the mass"] = too_small_;
+  return all;
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
@@ -223,8 +233,11 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
       throw_if_stop_is_due();
+      is_too_small_ = false;
       const bool done = change_at(edit, view, n);
-      if (memory) memory->settle_candidate(done);
+      const bool is_too_small = !done && is_too_small_; // which is the reason, whatever else was tried
+      if (is_too_small) ++too_small_;
+      if (memory) memory->settle_candidate(done || is_too_small);
       if (!done) continue;
       events.push_back({.value = candidates_[n].relative(),
                         .dart = candidates_[n].dart,
@@ -264,10 +277,21 @@ bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
   return false;
 }
 
-// At the darts that are left. Where the law was exceeded at a wall, it parts pieces alone.
+// At the darts that are left. What would leave less than the least piece is taken back.
 bool TearLaw::make_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall) {
-  const ChangeType& change = *settings_.change;
   if (left_.empty()) return false;
+  if (!least_piece_) return try_change(edit, view, found, wall);
+  const Edit::Savepoint before = edit.savepoint();
+  if (!try_change(edit, view, found, wall)) return false;
+  if (least_piece_->is_kept(edit, before, view)) return true;
+  edit.rollback(before);
+  is_too_small_ = true;
+  return false;
+}
+
+// Where the law was exceeded at a wall, it parts pieces alone.
+bool TearLaw::try_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall) {
+  const ChangeType& change = *settings_.change;
   if (wall && change.cell == Cell::Vertices) return part_pieces(edit, view, found, left_);
   if (wall && !parts_pieces(edit, view, left_)) return false;
   return change.apply(edit, view, found, left_);

@@ -18,6 +18,7 @@
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/fragment_counter.h"
+#include "sim/fracture/least_piece.h"
 #include "sim/fracture/strength.h"
 #include "sim/fracture/transfer.h"
 
@@ -38,6 +39,7 @@ struct LawSettings {
   GrainSettings grain = {};
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
+  double min_piece = 0; // of what is torn off, the least share of the mass; 0: any
   SettingsSource source = {};
 
   // Found when it is put on a body.
@@ -76,8 +78,8 @@ public:
   const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
   const Reached& reached() const { return reached_; }
   void restore_reached(const Reached& before) { reached_ = before; } // of a state that is returned to
-  // Of candidates at which a rule did not apply, at every step again; empty for other changes.
-  const Refusals& refusals() const;
+  // Of candidates at which a change was not possible, at every step again.
+  Refusals refusals() const;
   // What was reached, and refusals; nothing is reached later than now [s].
   void store(Archive& archive, double now);
 
@@ -101,6 +103,7 @@ private:
   std::span<const Dart> cell(std::size_t candidate) const;
   bool change_at(Edit& edit, const ForceView& view, std::size_t candidate);
   bool make_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall);
+  bool try_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall);
 
   LawSettings settings_;
   const Transfer* transfer_;
@@ -110,8 +113,11 @@ private:
   std::vector<Dart> darts_;        // of the candidates' cells before the edit, cell by cell
   std::vector<std::size_t> begin_; // first entry of each candidate in darts_
   Places places_;                  // of all candidates, before the edit; empty if the cells are the places
-  std::vector<std::size_t> first_place_; // of each candidate in places_
-  std::vector<Dart> left_;               // scratch: the darts of one cell that still exist
+  std::vector<std::size_t> first_place_;  // of each candidate in places_
+  std::vector<Dart> left_;                // scratch: the darts of one cell that still exist
+  std::optional<LeastPiece> least_piece_; // none: what is torn off may have any mass
+  std::uint64_t too_small_ = 0;           // candidates at which it was less
+  bool is_too_small_ = false;             // it was at a place of the candidate that is tried
 };
 
 } // namespace rend
