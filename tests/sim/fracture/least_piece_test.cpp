@@ -65,7 +65,7 @@ Torn tear(const std::string& shape, const std::string& law) {
   const std::vector<double> start = pieces_of(scene.body());
   EXPECT_EQ(start.size(), 1u);
   Torn torn;
-  long tears = 0;
+  std::size_t tears = 0;
   for (int n = 0; n < 4000 && scene->time() < 0.25; ++n) {
     scene->step();
     if (scene->tears() == tears) continue;
