@@ -45,6 +45,7 @@ private:
   Vec3 at(Dart d) const { return state_.position[state_.map.vertex(d)].vec(); }
   Point between(Dart a, Dart b, double share) const;
   const ElementSizes& start_of(Dart d) const;
+  bool is_of_this_step(Dart d) const;
   bool keeps_shape(Dart d, const Point& to) const;
   bool may_be_part(const Vec3& a, const Vec3& b, const Vec3& c, Dart whole) const; // [m], at rest
   std::optional<double> nearest_with_room(Dart across, double t) const;

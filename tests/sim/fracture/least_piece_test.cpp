@@ -83,13 +83,17 @@ Torn tear(const std::string& shape, const std::string& law) {
 const std::string sheet = R"(<sheet pattern="crossed" cells="16 6" size="2 0.75"/>)",
                   bar = R"(<bar pattern="tetrahedra" cells="8 2 2" size="1.2 0.3 0.3"/>)";
 
-class LeastPieceOf : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+struct Case {
+  std::string shape, law;
+  double share;
+};
+
+class LeastPieceOf : public testing::TestWithParam<Case> {};
 
 TEST_P(LeastPieceOf, is_kept_after_every_change) {
-  const auto& [shape, law] = GetParam();
-  constexpr double share = 0.04;
+  const auto& [shape, law, share] = GetParam();
   const Torn plain = tear(shape, "<tear " + law + "/>"),
-             kept = tear(shape, "<tear " + law + R"( min-piece="0.04"/>)");
+             kept = tear(shape, fmt::format("<tear {} min-piece=\"{}\"/>", law, share));
   ASSERT_FALSE(plain.least.empty());
   EXPECT_LT(plain.least.back(), share) << "without it there are smaller ones";
   ASSERT_FALSE(kept.least.empty());
@@ -98,19 +102,21 @@ TEST_P(LeastPieceOf, is_kept_after_every_change) {
   EXPECT_TRUE(kept.refused.contains("it would tear off a piece of less than min-piece of the mass"));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sheets, LeastPieceOf,
-    testing::Combine(testing::Values(sheet),
-                     testing::Values(R"(criterion="vertex-stress" threshold="3e3" change="split-vertex")",
-                                     R"(criterion="vertex-stress" threshold="3e3" change="cut")",
-                                     R"(criterion="atomic-border" threshold="2" change="separate")")));
+const std::string split = R"(criterion="vertex-stress" threshold="3e3" change="split-vertex")",
+                  cut = R"(criterion="vertex-stress" threshold="3e3" change="cut")",
+                  square = R"(<sheet pattern="crossed" cells="12 12" size="2 2"/>)",
+                  fine = R"(<bar pattern="tetrahedra" cells="12 3 3" size="1.2 0.3 0.3"/>)";
 
-INSTANTIATE_TEST_SUITE_P(
-    Solids, LeastPieceOf,
-    testing::Combine(testing::Values(bar),
-                     testing::Values(R"(criterion="vertex-stress" threshold="4e3" change="split-vertex")",
-                                     R"(criterion="vertex-stress" threshold="4e3" change="cut")",
-                                     R"(criterion="atomic-border" threshold="20" change="separate")")));
+std::string borders(int threshold) { // [N]
+  return fmt::format(R"(criterion="atomic-border" threshold="{}" change="separate")", threshold);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sheets, LeastPieceOf,
+                         testing::Values(Case{sheet, split, 0.04}, Case{sheet, cut, 0.01},
+                                         Case{square, cut, 0.04}, Case{sheet, borders(2), 0.04}));
+INSTANTIATE_TEST_SUITE_P(Solids, LeastPieceOf,
+                         testing::Values(Case{fine, split, 0.05}, Case{fine, cut, 0.1},
+                                         Case{bar, borders(20), 0.04}));
 
 TEST(LeastPiece, of_a_body_in_pieces_is_kept_where_their_walls_open) {
   const std::string pieces = R"(<pieces count="12" seed="3" strength="0.1"/>)";
