@@ -108,7 +108,7 @@ TEST(MaskFile, lies_on_an_outline_as_its_texture_does) {
   NEEDS_PNG;
   const Scened scened(R"(<outline shape="star" size="0.2" cell="0.02"/>
                          <place scale="2" rotate="90 0 0" translate="1 2 3"/>)",
-                      R"(picture="mask.png" strength="1 + u + 10*v + 0*picture")");
+                      R"(picture="mask.png" strength="100 + u + 10*v + 0*picture")");
   double wide = 0, high = 0; // of the whole: the larger is 0.4
   scened.map().map().for_each_dart([&](Dart d) {
     wide = std::max(wide, std::abs(scened.map().rest_of(d).x() - 1));
@@ -120,7 +120,7 @@ TEST(MaskFile, lies_on_an_outline_as_its_texture_does) {
     Vec3 middle = Vec3::Zero();
     for (Dart d : darts) middle += scened.map().rest_of(d) / static_cast<double>(darts.size());
     const double u = (middle.x() - 1) / 0.4 + 0.5, v = (middle.z() - 3) / (0.4 / 4) + 0.5; // four times as wide
-    EXPECT_NEAR(strength, 1 + u + 10 * v, 1e-6);
+    EXPECT_NEAR(strength, 100 + u + 10 * v, 1e-6);
     ++faces;
   });
   EXPECT_GT(faces, 50);

@@ -42,7 +42,7 @@ struct Played {
   Scene scene;
   Played(const std::string& name, int threads)
       : preset(load_scene(root / (name + ".xml"))),
-        scene(read_scene(*preset), SceneOptions{.threads = threads}) {}
+        scene(read_scene(*preset, scene_pictures()), SceneOptions{.threads = threads}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
 };
 

@@ -185,7 +185,7 @@ TEST(Guard, rejects_no_step_of_shipped_presets) {
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(test::source_root) / "presets")) {
     if (entry.path().extension() != ".xml") continue;
     const auto preset = load_scene(entry.path());
-    Scene scene(read_scene(*preset), {});
+    Scene scene(read_scene(*preset, scene_pictures()), {});
     std::size_t vertices = 0;
     for (const auto& body : scene.bodies()) vertices += body->vertices();
     if (scene.scheme().solves || vertices > 1500) continue; // to limit the run time

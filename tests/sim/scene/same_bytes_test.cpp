@@ -23,7 +23,8 @@ struct Played {
   Scene scene;
   Played(const std::string& name, int threads)
       : preset(load_scene(shipped::path_of(name))),
-        scene(read_scene(*preset), SceneOptions{.threads = threads, .parallel_small_bodies = true}) {}
+        scene(read_scene(*preset, scene_pictures()),
+              SceneOptions{.threads = threads, .parallel_small_bodies = true}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
   void go_to(long step) {
     while (scene.steps_done() < step) scene.step();

@@ -63,7 +63,7 @@ class SteadyPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(SteadyPreset, asks_for_no_memory) {
   const auto preset = load_scene(shipped::path_of(GetParam()));
-  Scene scene(read_scene(*preset), SceneOptions{.threads = 2});
+  Scene scene(read_scene(*preset, scene_pictures()), SceneOptions{.threads = 2});
   expect_none(scene);
 }
 

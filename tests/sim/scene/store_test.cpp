@@ -43,7 +43,7 @@ struct StoredRun {
   std::unique_ptr<Scene> scene;
   explicit StoredRun(const std::string& name)
       : preset(load_scene(shipped::path_of(name))),
-        scene(std::make_unique<Scene>(read_scene(*preset),
+        scene(std::make_unique<Scene>(read_scene(*preset, scene_pictures()),
                                       SceneOptions{.threads = 2, .count_fragments = true})) {}
 };
 

@@ -38,11 +38,12 @@ TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
   for (const std::string& name : shipped::all_presets()) {
     SCOPED_TRACE(name);
     const auto preset = load_scene(shipped::path_of(name));
-    Scene one(read_scene(*preset), SceneOptions{.threads = 1});
+    Scene one(read_scene(*preset, scene_pictures()), SceneOptions{.threads = 1});
     if (!sweeps(one)) continue;
     ++swept;
     const auto again = load_scene(shipped::path_of(name));
-    Scene other(read_scene(*again), SceneOptions{.threads = 1, .parallel_small_bodies = true});
+    Scene other(read_scene(*again, scene_pictures()),
+                SceneOptions{.threads = 1, .parallel_small_bodies = true});
     EXPECT_FALSE(sweeps(other));
     for (int n = 0; n < 40; ++n) {
       one.step();
