@@ -66,11 +66,11 @@ bool TriangleCut::may_move(Dart d, const Point& to) const {
   if (state_.rigid || std::ranges::binary_search(state_.held, state_.map.vertex(d))) return false;
   const std::vector<Dart> around = darts_of(map_, Vertex, d);
   return std::ranges::all_of(
-      around, [&](Dart e) { return !map_.is_free(2, e) && (is_of_this_step(e) || keeps_shape(e, to)); });
+      around, [&](Dart e) { return !map_.is_free(2, e) && !is_of_this_step(e) && keeps_shape(e, to); });
 }
 
-// The triangle of d was divided by another cut of the step, and its parts have no slots yet: nothing is known
-// of its shape, and this cut waits for it in the end (sheet_cutter.cpp).
+// The triangle of d was divided by another cut of the step: its parts have no slots yet, and nothing is known
+// of their shape. Its corner stays where it is.
 bool TriangleCut::is_of_this_step(Dart d) const {
   const CellIndex& vertices = state_.map.cells(Vertex);
   const auto is_new = [&](Dart e) { return vertices.find(e) == no_slot; };
