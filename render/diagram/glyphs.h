@@ -1,4 +1,4 @@
-// Outlines of letters, in the font that is embedded for the HUD (render/draw/hud_font.h).
+// Outlines of letters, in the font that is embedded (sim/font/font.h).
 #pragma once
 
 #include "render/diagram/drawing.h"
@@ -10,7 +10,7 @@ namespace rend {
 
 using Contours = std::vector<std::vector<Spot>>; // closed; a contour of the other sense is a hole
 
-// UserError (Usage): rend was built without REND_HUD, and so without the font.
+// UserError (Usage): rend was built without the font.
 void require_glyphs();
 
 // Of UTF-8 text whose baseline begins at `at`; `size` is the height of the font [pixels].

@@ -1,7 +1,7 @@
 #include "render/draw/hud.h"
 
 #ifdef REND_HUD
-#include "render/draw/hud_font.h"
+#include "sim/font/font.h"
 #include "sim/base/check.h"
 
 #include <backends/imgui_impl_opengl3.h>
@@ -74,8 +74,8 @@ Hud::Context::Context(int width, int height)
     CHECK(made != nullptr);
     return made;
   };
-  text_ = add(hud_font(), text_size);
-  title_ = add(hud_font_bold(), title_size);
+  text_ = add(font_file(FontWeight::Regular), text_size);
+  title_ = add(font_file(FontWeight::SemiBold), title_size);
   CHECK(ImGui_ImplOpenGL3_Init("#version 330 core"));
 }
 

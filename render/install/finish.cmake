@@ -6,11 +6,14 @@ endfunction()
 output(date git -C ${CPACK_REND_SOURCE} log -1 --date=rfc2822 --format=%cd)
 output(contact git -C ${CPACK_REND_SOURCE} log -1 "--format=%cn <%ce>")
 
-# Third-party parts within the program: the font of its HUD, and the part of Dear ImGui that draws it.
+# Third-party parts within the program: the font, what reads it, and the part of Dear ImGui that draws it.
 set(copyright "rend, by the people whom its history names. They have stated no licence.\n")
 set(held "")
+if(CPACK_REND_FONT)
+  list(APPEND held fonts-inter libstb-dev)
+endif()
 if(CPACK_REND_HUD)
-  set(held fonts-inter libimgui-dev)
+  list(APPEND held libimgui-dev)
 endif()
 foreach(other IN LISTS held)
   file(READ /usr/share/doc/${other}/copyright terms)

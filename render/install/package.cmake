@@ -12,6 +12,7 @@ set(CPACK_PROJECT_CONFIG_FILE ${install_source}/version.cmake) # reads the commi
 set(CPACK_PRE_BUILD_SCRIPTS ${install_source}/finish.cmake)
 set(CPACK_REND_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_REND_HUD ${hud})
+set(CPACK_REND_FONT ${REND_FONT})
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)

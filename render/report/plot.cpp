@@ -101,7 +101,7 @@ public:
     }
     for (double x : series.out) out.push_back({.x = x, .y = edge});
     const std::string paint = fmt::format("lc rgb '{}'", look.colour);
-    const bool curve = series.style == PlotSeries::Style::Curve;
+    const bool curve = series.style == PlotSeries::Style::Marked;
     if (series.style == PlotSeries::Style::Back)
       return put(series.points, "w lines lw 9 lc rgb '#d9d9d9'", series.name);
     if (series.style == PlotSeries::Style::Line)

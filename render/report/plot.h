@@ -21,14 +21,14 @@ struct PlotPoint {
 
 struct PlotSeries {
   enum class Style {
-    Curve,  // a line with marks
+    Marked, // a line with marks
     Line,   // a thin line without marks
     Points, // marks without a line
     Back,   // a broad grey line behind the others
   };
   std::string name; // in the legend; empty: not there
   std::vector<PlotPoint> points = {};
-  Style style = Style::Curve;
+  Style style = Style::Marked;
   int style_number = 0;         // which colour, mark and dash; the same number looks the same in every plot
   std::vector<double> out = {}; // x of what has no y: crosses at the upper edge
 };

@@ -1,3 +1,4 @@
+#include "sim/build/named_file.h"
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
 #include "sim/mesh/reader.h"
@@ -9,6 +10,18 @@ namespace {
 const ElementType& mesh_type() {
   static const ElementType type{"mesh", "a sheet or a solid from a file", attributes_of<MeshSettings>(), {}};
   return type;
+}
+
+// What is wrong within a file tells its place there; what is wrong with its name, that in the preset.
+template <class Read> auto with_place_of_file(const SettingsSource& source, Read&& read) {
+  try {
+    return read();
+  } catch (const UserError& error) {
+    if (error.code == Exit::BadInput) throw;
+    throw UserError(error.code, source.place("file"), error.what(),
+                    error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
+                                                : error.hint);
+  }
 }
 
 } // namespace
@@ -28,14 +41,11 @@ template <> const Fields<MeshSettings>& fields_of() {
 }
 
 MeshFile read_mesh_of(const SettingsSource& source, const std::string& file) {
-  try {
-    return read_mesh(mesh_path(source.place(), file));
-  } catch (const UserError& error) {
-    if (error.code == Exit::BadInput) throw; // says where in the mesh
-    throw UserError(error.code, source.place("file"), error.what(),
-                    error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
-                                                : error.hint);
-  }
+  return with_place_of_file(source, [&] { return read_mesh(mesh_path(source.place(), file)); });
+}
+
+MeshSource open_file_of(const SettingsSource& source, const std::string& file) {
+  return with_place_of_file(source, [&] { return MeshSource::open(mesh_path(source.place(), file), "file"); });
 }
 
 void make_map(Body& body, const MeshSettings& shape, const Placement& place) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace rend {
@@ -289,14 +290,20 @@ private:
 template <> const Fields<OutlineShape>& fields_of() {
   using S = OutlineShape;
   static const Fields<S> fields{
-      field(&S::name,
-            word("shape", {"path", "heart", "star", "disc", "ring", "drop", "gear"},
-                 "the outline\npath: of the attribute path\nothers: by name, their middle at the origin")),
+      field(&S::name, word("shape", {"path", "heart", "star", "disc", "ring", "drop", "gear"},
+                           "the outline\npath: of the attribute path, file or text\nothers: by name, their "
+                           "middle at the origin")),
       field(&S::path, text("path", "data of an SVG path: M L H V C S Q T A Z; y points up; what lies within an "
                                    "odd number of its curves is inside")),
+      field(&S::file,
+            text("file", "an SVG file: what its paths, rectangles, circles, ellipses and polygons fill, one "
+                         "connected region; relative to the preset, and in its folder or below")),
+      field(&S::text,
+            text("text", "letters of the font Inter, each of which is one connected region: capitals and "
+                         "digits, most small ones; of several, each is a part of the body")),
       field(&S::size, number("size", "m",
                              "the larger side of the box around it, whose middle comes to the origin; "
-                             "of a path: none, its numbers are metres")
+                             "of a path: none, its numbers are metres; of others: 1 m")
                           .above(0)),
       field(&S::cell, number("cell", "m", "length of the edges of triangles, about").above(0).is_required()),
       field(&S::depth,
@@ -306,6 +313,27 @@ template <> const Fields<OutlineShape>& fields_of() {
 
 PolygonMesh triangles_within(const Outline& outline, double cell) {
   return Lattice(outline, cell).mesh();
+}
+
+int parts_of(const PolygonMesh& triangles) {
+  std::vector<std::size_t> parent(triangles.polygons());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t t) {
+    while (parent[t] != t) t = parent[t] = parent[parent[t]];
+    return t;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> beside; // the triangle at each edge
+  auto parts = static_cast<int>(triangles.polygons());
+  for (std::size_t t = 0; t < triangles.polygons(); ++t)
+    for (std::size_t n = 0; n < 3; ++n) {
+      const std::uint32_t a = triangles.corners[3 * t + n], b = triangles.corners[3 * t + (n + 1) % 3];
+      const auto [found, is_new] = beside.try_emplace(std::minmax(a, b), t);
+      const std::size_t one = root(found->second), other = root(t);
+      if (is_new || one == other) continue;
+      parent[std::max(one, other)] = std::min(one, other);
+      --parts;
+    }
+  return parts;
 }
 
 double area_of(const PolygonMesh& triangles) {

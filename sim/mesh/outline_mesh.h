@@ -23,7 +23,9 @@ namespace rend {
 
 struct OutlineShape {
   OutlineName name = OutlineName::Path;
-  std::string path = {};            // of OutlineName::Path
+  std::string path = {};            // data of an SVG path
+  std::string file = {};            // an SVG file, relative to the preset; of a program, to where it runs
+  std::string text = {};            // letters. Of name, path, file and text one is given
   std::optional<double> size = {};  // [m]
   double cell = 0;                  // [m]
   std::optional<double> depth = {}; // [m]
@@ -33,6 +35,9 @@ template <> const Fields<OutlineShape>& fields_of();
 
 // Of edges about as long as `cell` [m], in the plane z = 0. Empty: the outline is thinner than that everywhere.
 PolygonMesh triangles_within(const Outline& outline, double cell);
+
+// That are connected by edges.
+int parts_of(const PolygonMesh& triangles);
 
 // [m²]
 double area_of(const PolygonMesh& triangles);

@@ -33,11 +33,10 @@ std::size_t bytes_on_disk(const std::filesystem::path& path) {
 
 } // namespace
 
-MeshSource MeshSource::open(const std::filesystem::path& path) {
+MeshSource MeshSource::open(const std::filesystem::path& path, const std::string& noun) {
   const std::string name = path.string();
   std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw UserError(Exit::NoInput, {name}, "there is no such mesh file");
+  if (!std::filesystem::exists(path, error)) throw UserError(Exit::NoInput, {name}, "there is no such " + noun);
   if (!std::filesystem::is_regular_file(path, error)) throw UserError(Exit::BadInput, {name}, "is not a file");
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);

@@ -15,7 +15,8 @@ class MeshSource {
 public:
   // UserError: NoInput if there is no such file, BadInput if it is not a regular file or has unwritten parts,
   // ReadWrite if reading fails.
-  static MeshSource open(const std::filesystem::path& path);
+  // `noun`: what it is called where there is none.
+  static MeshSource open(const std::filesystem::path& path, const std::string& noun = "mesh file");
   MeshSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
 
   const std::string& name() const { return name_; }

@@ -61,6 +61,7 @@ std::filesystem::path FileOfPreset::path() const {
 
 std::string FileOfPreset::noun() const {
   return node->name() == "mesh" || node->name() == "obstacle" ? "mesh"
+         : node->name() == "outline"                          ? "drawing"
          : node->name() == "rules"                            ? "file"
                                                               : "picture";
 }
@@ -75,6 +76,8 @@ std::vector<FileOfPreset> files_of(const PresetNode& scene) {
   for (const PresetNode* rules : scene.all("rules")) files.push_back(file_of(*rules));
   for (const PresetNode* body : scene.all("body")) {
     for (const PresetNode* mesh : body->all("mesh")) files.push_back(file_of(*mesh));
+    for (const PresetNode* outline : body->all("outline"))
+      if (outline->find("file") && !outline->text("file").empty()) files.push_back(file_of(*outline));
     for (const char* element : {"mass", "tear"})
       for (const PresetNode* node : body->all(element)) add_picture(*node, "picture");
     for (const PresetNode* look : body->all("look"))

@@ -27,7 +27,8 @@ bool lies_in(const std::filesystem::path& path, const std::filesystem::path& fol
 std::filesystem::path mesh_path(const Place& preset, const std::string& file);
 std::filesystem::path named_path(const PresetNode& node);
 
-// A file that an element of a scene names: a mesh, a file of rules, or a picture of a look, a mass or a law.
+// A file that an element of a scene names: a mesh, a drawing, a file of rules, or a picture of a look, a mass or
+// a law.
 struct FileOfPreset {
   const PresetNode* node = nullptr;
   std::string attribute;        // that names it
@@ -35,7 +36,7 @@ struct FileOfPreset {
 
   const std::string& name() const; // as the preset has it
   std::filesystem::path path() const;
-  std::string noun() const; // mesh, picture, file
+  std::string noun() const; // mesh, picture, drawing, file
 };
 std::vector<FileOfPreset> files_of(const PresetNode& scene);
 

@@ -24,7 +24,7 @@ Plot example() {
   plot.log_x = plot.log_y = true;
   PlotSeries front{"Pareto front", {}, PlotSeries::Style::Back, 0, {}};
   for (int scheme = 0; scheme < 4; ++scheme) {
-    PlotSeries series{"scheme " + std::to_string(scheme + 1), {}, PlotSeries::Style::Curve, scheme, {}};
+    PlotSeries series{"scheme " + std::to_string(scheme + 1), {}, PlotSeries::Style::Marked, scheme, {}};
     for (int n = 0; n < 8; ++n) {
       const double t = 1e-3 * std::pow(2, n) * (1 + scheme);
       series.points.push_back({t, std::pow(t, -1 - scheme) * 1e-6, {}, {}, 0.8 * t, 1.3 * t, n == 7});
