@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace rend {
@@ -103,6 +104,20 @@ FragmentFigures fragments_of(const Scene& scene) {
   return out;
 }
 
+// Steps begin at multiples of the step.
+bool had_its_time(const Session& session, const LawSettings& law) {
+  const double step = session.scene().step_size(), slack = 1e-9 * step;
+  const double first = std::ceil((law.from - slack) / step) * step, last = session.scene().time() - step;
+  return first <= std::min(law.until, last) + slack;
+}
+
+NeverTore why_never(const Session& session, const LawFigures& law, const LawSettings& settings) {
+  if (law.tears > 0) return NeverTore::No;
+  if (law.reached.value > law.threshold) return NeverTore::NotPossible;
+  if (law.reached.value > 0) return NeverTore::Below;
+  return had_its_time(session, settings) ? NeverTore::NoValue : NeverTore::NotInTime;
+}
+
 std::vector<LawFigures> laws_of(const Session& session) {
   const Scene& scene = session.scene();
   std::vector<LawFigures> laws;
@@ -117,6 +132,10 @@ std::vector<LawFigures> laws_of(const Session& session) {
                      .tears = 0,
                      .first = {},
                      .at_once = {},
+                     .from = law.from,
+                     .until = law.until,
+                     .selects = law.strength.where.given(),
+                     .is_relative = body->tear_laws[n].differs_by_strength(),
                      .refusals = body->tear_laws[n].refusals(),
                      .reached = body->tear_laws[n].reached(),
                      .look_every = body->look_every};
@@ -126,6 +145,7 @@ std::vector<LawFigures> laws_of(const Session& session) {
         one.first = event.time;
         one.at_once = early_step(session, body->tear_laws[n], event);
       }
+      one.never = why_never(session, one, law);
       laws.push_back(std::move(one));
     }
   }
@@ -215,6 +235,22 @@ StateFigures state_of(const Session& session) {
 }
 
 } // namespace
+
+std::string_view name_of(NeverTore why) {
+  switch (why) {
+  case NeverTore::No:
+    return "";
+  case NeverTore::NotInTime:
+    return "not in time";
+  case NeverTore::NoValue:
+    return "no value";
+  case NeverTore::Below:
+    return "below threshold";
+  case NeverTore::NotPossible:
+    return "not possible";
+  }
+  return "";
+}
 
 Figures figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   const Scene& scene = session.scene();

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,16 @@ struct Costs {
   std::size_t surface_bytes = 0;
 };
 
+// Why a law has torn nothing. Its largest value counts in its time and where it looks alone.
+enum class NeverTore {
+  No,          // it has torn something
+  NotInTime,   // no step was in its time
+  NoValue,     // nothing was above 0
+  Below,       // the largest value is below the threshold
+  NotPossible, // the threshold was exceeded where the change was not possible: `refusals`
+};
+std::string_view name_of(NeverTore why); // of JSON
+
 // What a law did, whether it did anything or not.
 struct LawFigures {
   std::string body, criterion, change;
@@ -33,9 +44,13 @@ struct LawFigures {
   // The step of that, counted from the law's start, if it is one of the first and the threshold far below what
   // is reached: it may be meant in another unit (early_tears.h).
   std::optional<long> at_once;
-  Refusals refusals;   // where the value was above the threshold and the change not possible, by reason
-  Reached reached;     // the largest value
-  long look_every = 1; // steps; of values above the threshold 1
+  NeverTore never = NeverTore::No;
+  double from = 0, until = 0; // [s]; until: infinite without an end
+  bool selects = false,
+       is_relative = false; // among some vertices alone; values are divided by the strength there
+  Refusals refusals;        // where the value was above the threshold and the change not possible, by reason
+  Reached reached;          // the largest value
+  long look_every = 1;      // steps; of values above the threshold 1
 };
 
 // The largest value of a criterion at the steps at which its law has looked.

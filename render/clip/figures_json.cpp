@@ -39,7 +39,9 @@ Json json_of(const LawFigures& law) {
            {"first", json_or_null(law.first)},
            {"at_once", law.at_once.has_value()},
            {"reached", json_of(law.reached)},
-           {"look_every", law.look_every}};
+           {"look_every", law.look_every},
+           {"never", law.never == NeverTore::No ? Json(nullptr) : Json(name_of(law.never))},
+           {"relative", law.is_relative}};
   for (const auto& [reason, count] : law.refusals) out["refused"][reason] = count;
   return out;
 }

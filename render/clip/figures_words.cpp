@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -71,6 +72,33 @@ std::string refusals_in_words(const Refusals& refusals) {
   return out;
 }
 
+std::string time_in_words(const LawFigures& law) {
+  return fmt::format("in its time, from {:.6g} s {}", law.from,
+                     std::isfinite(law.until) ? fmt::format("to {:.6g} s", law.until) : "on");
+}
+
+// What the largest value of a law that never tore leaves out.
+std::string limits_in_words(const LawFigures& law) {
+  std::string out;
+  if (law.never == NeverTore::No) return out;
+  if (law.from > 0 || std::isfinite(law.until)) out += ", " + time_in_words(law);
+  if (law.selects) out += ", among what it selects";
+  if (law.is_relative) out += ", divided by the strength there";
+  return out;
+}
+
+std::string value_in_words(const LawFigures& law) {
+  if (law.never == NeverTore::NotInTime) return ": no step was " + time_in_words(law);
+  const std::string limits = limits_in_words(law);
+  if (law.never == NeverTore::NoValue) return "; no value above 0" + limits;
+  const bool sampled = law.look_every > 1 && law.tears == 0;
+  const std::string how = sampled          ? fmt::format(", sampled every {} steps: at least", law.look_every)
+                          : limits.empty() ? ""
+                                           : ":";
+  return law.reached.value > 0 ? "; largest value" + limits + how + " " + place_in_words(law.reached, law.unit)
+                               : "";
+}
+
 std::string laws_in_words(const std::vector<LawFigures>& laws) {
   std::string out;
   for (const LawFigures& law : laws) {
@@ -83,12 +111,7 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
     if (law.at_once)
       out += fmt::format(", in the law's step {}: is the threshold meant in {}, and not too low?", *law.at_once,
                          law.unit.empty() ? "this unit, a ratio" : printable(law.unit));
-    if (law.reached.value > 0)
-      out += fmt::format("; largest value{} {}",
-                         law.look_every > 1 && law.tears == 0
-                             ? fmt::format(", sampled every {} steps: at least", law.look_every)
-                             : "",
-                         place_in_words(law.reached, law.unit));
+    out += value_in_words(law);
     out += "\n" + refusals_in_words(law.refusals);
   }
   return out;

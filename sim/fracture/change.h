@@ -26,8 +26,9 @@ using Refusals = std::map<std::string, std::uint64_t>;
 class ChangeMemory {
 public:
   virtual ~ChangeMemory() = default;
-  virtual void begin(const ForceView& view) = 0;               // before the first call of an edit
-  virtual void settle_candidate(bool made) = 0;                // after the calls at all places of one candidate
+  virtual void begin(const ForceView& view) = 0; // before the first call of an edit
+  // After the calls at all places of one candidate. `otherwise`: why there was none, if there was none.
+  virtual void settle_candidate(bool made, const char* otherwise) = 0;
   virtual const Refusals& refusals() const = 0;                // of candidates
   virtual void store(Archive& archive) = 0;                    // the refusals
   virtual void make_anew(const CriterionRequest& request) = 0; // the body has got further interactions

@@ -23,21 +23,19 @@ public:
 
   void begin(const ForceView&) override {}
   void make_anew(const CriterionRequest&) override {}
-  void settle_candidate(bool made) override {
-    if (!made) ++refusals_[tried_ ? why_ : nothing_there];
+  void settle_candidate(bool made, const char* otherwise) override {
+    if (!made) ++refusals_[tried_ ? why_ : otherwise];
     tried_ = false;
   }
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
-    archive.table(refusals_, 2, "a change was refused for more reasons than there are");
+    archive.table(refusals_, 3, "a change was refused for more reasons than there are");
   }
   void rebind(const Changes&) override {}
   void reserve_for_separations() override {}
   std::size_t bytes() const override { return 0; }
 
 private:
-  static constexpr const char* nothing_there =
-      "there is no such cell beside it, or a change of the same step has taken it";
   std::string why_;
   bool tried_ = false; // at a place of the current candidate
   Refusals refusals_;

@@ -65,13 +65,13 @@ public:
   }
 
   void begin(const ForceView&) override { touched_.clear(); }
-  void settle_candidate(bool made) override {
-    if (!made && why_) ++refusals_[why_];
+  void settle_candidate(bool made, const char* otherwise) override {
+    if (!made) ++refusals_[why_ ? why_ : otherwise];
     why_ = nullptr;
   }
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
-    archive.table(refusals_, 7, "a cut was refused for more reasons than there are");
+    archive.table(refusals_, 9, "a cut was refused for more reasons than there are");
   }
   void make_anew(const CriterionRequest& request) override {
     plane_.emplace(request);

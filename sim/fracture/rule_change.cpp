@@ -51,6 +51,7 @@ public:
   }
 
   bool apply(Edit& edit, const FoundPlace& found, std::span<const Dart> darts) {
+    tried_ = true;
     const bool whole = is_component(what_.hook_orbit(), edit.map().dimension());
     if (whole && changed_components_.contains(darts.front().value)) return false;
     const bool made = apply_at(edit, found, darts);
@@ -64,9 +65,11 @@ public:
     elements_.begin();
     changed_components_.clear();
   }
-  void settle_candidate(bool made) override {
+  void settle_candidate(bool made, const char* otherwise) override {
     if (!made && furthest_.stage > 0) count(furthest_.reason);
+    if (!made && !tried_) count(otherwise);
     furthest_ = {};
+    tried_ = false;
   }
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
@@ -120,6 +123,7 @@ private:
   IndexSet changed_components_; // darts of those that this step has changed already
   std::vector<Dart> darts_;     // scratch
   Refusal furthest_;            // at the places of one candidate
+  bool tried_ = false;          // at a place of it
   Refusals refusals_;
 };
 

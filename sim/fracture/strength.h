@@ -95,6 +95,8 @@ public:
   // or not selected.
   void weigh(const EmbeddedMap& map, double above, std::vector<Candidate>& candidates) const;
 
+  bool differs() const { return strength_ || pieces_; } // from place to place; not: it selects alone
+
 private:
   explicit Strength(Cell cell) : cell_(cell) {}
   void select(EmbeddedMap& map, const std::vector<Slot>& vertices, const SettingsSource& source);

@@ -105,6 +105,11 @@ void add_others(const GMap& map, Orbit orbit, std::span<const Dart> cell, std::s
 
 thread_local TouchedDarts touched;
 
+// Why a change is not asked for at a candidate.
+constexpr const char* nothing_there =
+    "there is no such cell beside it, or a change of the same step has taken it";
+constexpr const char* no_wall = "at walls between pieces it parts pieces alone, and parts none there";
+
 } // namespace
 
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
@@ -237,7 +242,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       const bool done = change_at(edit, view, n);
       const bool is_too_small = !done && is_too_small_; // which is the reason, whatever else was tried
       if (is_too_small) ++too_small_;
-      if (memory) memory->settle_candidate(done || is_too_small);
+      if (memory) memory->settle_candidate(done || is_too_small, otherwise_);
       if (!done) continue;
       events.push_back({.value = candidates_[n].relative(),
                         .dart = candidates_[n].dart,
@@ -259,6 +264,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
 // False: it is not possible any more; its cell may have been removed by an earlier change.
 bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
   const ChangeType& change = *settings_.change;
+  otherwise_ = nothing_there;
   if (!transfer_->find) {
     left_.clear();
     for (Dart d : cell(n))
@@ -292,6 +298,7 @@ bool TearLaw::make_change(Edit& edit, const ForceView& view, const FoundPlace& f
 // Where the law was exceeded at a wall, it parts pieces alone.
 bool TearLaw::try_change(Edit& edit, const ForceView& view, const FoundPlace& found, bool wall) {
   const ChangeType& change = *settings_.change;
+  if (wall) otherwise_ = no_wall;
   if (wall && change.cell == Cell::Vertices) return part_pieces(edit, view, found, left_);
   if (wall && !parts_pieces(edit, view, left_)) return false;
   return change.apply(edit, view, found, left_);

@@ -65,6 +65,8 @@ public:
   void make_anew(const CriterionRequest& request); // for a body that has got further interactions
 
   const LawSettings& settings() const { return settings_; }
+  // Values are divided by the strength of their place.
+  bool differs_by_strength() const { return settings_.by_place && settings_.by_place->differs(); }
   bool active(double time) const { return time >= settings_.from && time <= settings_.until; }
 
   // Needs the forces of each element by itself; they are enough where ForceView::corner_buffer says so.
@@ -78,7 +80,7 @@ public:
   const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
   const Reached& reached() const { return reached_; }
   void restore_reached(const Reached& before) { reached_ = before; } // of a state that is returned to
-  // Of candidates at which a change was not possible, at every step again.
+  // Of candidates at which the change was not possible, at every step again.
   Refusals refusals() const;
   // What was reached, and refusals; nothing is reached later than now [s].
   void store(Archive& archive, double now);
@@ -115,6 +117,7 @@ private:
   Places places_;                  // of all candidates, before the edit; empty if the cells are the places
   std::vector<std::size_t> first_place_;  // of each candidate in places_
   std::vector<Dart> left_;                // scratch: the darts of one cell that still exist
+  const char* otherwise_ = nullptr;       // why the change was not asked for at the current candidate
   std::optional<LeastPiece> least_piece_; // none: what is torn off may have any mass
   std::uint64_t too_small_ = 0;           // candidates at which it was less
   bool is_too_small_ = false;             // it was at a place of the candidate that is tried

@@ -61,6 +61,56 @@ TEST_F(LawFigures, say_why_a_law_never_tears_where_its_threshold_is_exceeded) {
               HasSubstr("cumulative-vertex of 'quad': no value: its change was possible nowhere"));
 }
 
+TEST_F(LawFigures, say_why_a_law_never_tears_where_it_is_not_exceeded) {
+  const auto words_and_law = [&](const std::string& set) {
+    const std::string line = "run pulled.xml -q --set body.tear.threshold=1e9 " + set;
+    return std::pair(place.rend(line).out, place.rend(line + " --json").json()["laws"][0]);
+  };
+  const auto [plain, law] = words_and_law("");
+  EXPECT_EQ(law["never"], "below threshold");
+  EXPECT_EQ(law["relative"], false);
+  EXPECT_THAT(plain, Not(HasSubstr("in its time")));
+  const auto [late, of_late] = words_and_law("--set body.tear.from=7");
+  EXPECT_EQ(of_late["never"], "not in time");
+  EXPECT_TRUE(of_late["reached"].is_null());
+  EXPECT_THAT(late, HasSubstr(": never: no step was in its time, from 7 s on\n"));
+  const auto [short_, of_short] = words_and_law("--set body.tear.from=0.01 --set body.tear.until=0.05");
+  EXPECT_EQ(of_short["never"], "below threshold");
+  EXPECT_LT(of_short["reached"]["value"], law["reached"]["value"]); // it is pulled more later on
+  EXPECT_THAT(short_, HasSubstr("never; largest value, in its time, from 0.01 s to 0.05 s, sampled every "));
+  const auto [part, of_part] = words_and_law("--set body.tear.side=-x --set body.tear.strength=4");
+  EXPECT_EQ(of_part["relative"], true);
+  EXPECT_THAT(part, HasSubstr(", among what it selects, divided by the strength there"));
+  // One that tears does not say why it does not.
+  EXPECT_TRUE(place.rend("run pulled.xml -q --json").json()["laws"][0]["never"].is_null());
+  // What nothing pulls has no value.
+  place.write("still.xml",
+              R"(<scene name="still"><body name="s"><sheet cells="2 2" size="1 1"/><mass total="1"/>
+    <springs><stretch k="1"/></springs><tear criterion="global-border" threshold="1"/></body>
+    <world gravity="0 0 0"/><time step="1e-3" duration="0.05"/></scene>)");
+  EXPECT_EQ(place.rend("run still.xml -q --json").json()["laws"][0]["never"], "no value");
+  EXPECT_THAT(place.rend("run still.xml -q").out, HasSubstr(": never; no value above 0\n"));
+}
+
+// Two halves of a sheet that is pulled along the wall between them: at vertices of the wall the law is
+// exceeded, but the border that is pulled most is none of the wall, and there the sheet holds.
+TEST_F(LawFigures, say_that_a_wall_between_pieces_is_weak_for_itself_alone) {
+  place.write("halves.xml", R"(<scene name="halves"><body name="b">
+    <sheet pattern="triangles" cells="8 4" size="0.8 0.4"/><pieces count="2" pattern="slabs" strength="0.01"/>
+    <mass total="1"/><elasticity young="1e4" poisson="0" thickness="0.01"/>
+    <drive all="yes" gradient="0 0 0 0 0.01 0 0 0 0"/>
+    <tear criterion="vertex-stress" threshold="1e3" change="separate"/></body>
+    <world gravity="0 0 0"/><time step="1e-4" duration="0.01"/></scene>)");
+  const json figures = place.rend("run halves.xml --json -q").json(), law = figures["laws"][0];
+  EXPECT_EQ(law["tears"], 0);
+  EXPECT_EQ(law["never"], "not possible");
+  EXPECT_NEAR(law["reached"]["value"], 1e4, 200); // 100 Pa, divided by a hundredth
+  const std::string why = "at walls between pieces it parts pieces alone, and parts none there";
+  ASSERT_TRUE(law["refused"].contains(why)) << law;
+  EXPECT_GT(law["refused"][why], 100);
+  EXPECT_THAT(place.rend("run halves.xml -q").out, HasSubstr("times: " + why));
+}
+
 TEST_F(LawFigures, tell_the_sizes_of_fragments) {
   const json torn = place.rend("run pulled.xml --json -q").json(), sizes = torn["fragment_sizes"];
   ASSERT_GT(torn["fragments"], 1);

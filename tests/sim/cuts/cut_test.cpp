@@ -343,9 +343,9 @@ TEST(Cut, of_a_neighbour_waits_for_the_next_step) {
   change->memory->begin(view);
   body->map->edit([&](Edit& edit) {
     EXPECT_TRUE(change->apply(edit, view, Vec3(0.3, 1, 0).normalized(), one));
-    change->memory->settle_candidate(true);
+    change->memory->settle_candidate(true, "");
     EXPECT_FALSE(change->apply(edit, view, Vec3(0.3, 1, 0).normalized(), other));
-    change->memory->settle_candidate(false);
+    change->memory->settle_candidate(false, "");
   });
   EXPECT_EQ(change->memory->refusals(),
             (Refusals{{"another cut of the same step has changed an element at the vertex", 1}}));

@@ -13,7 +13,7 @@ inline bool cut_at(Body& body, const ChangeType& change, Dart d, const Vec3& nor
   change.memory->begin(view);
   body.map->edit([&](Edit& edit) {
     made = change.apply(edit, view, normal, darts_of(body.map->map(), Vertex, d));
-    change.memory->settle_candidate(made);
+    change.memory->settle_candidate(made, "");
   });
   body.rebind();
   body.evaluate();
