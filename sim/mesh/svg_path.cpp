@@ -115,7 +115,8 @@ private:
 
   // From the ends to the centre (SVG 2, B.2.4), then in parts of at most a quarter turn.
   void arc() {
-    Vec2 radius(number(), number());
+    const double rx = number(), ry = number(); // in this order, which arguments would not have
+    Vec2 radius(rx, ry);
     const double degrees = number();
     const bool large = flag(), sweep = flag();
     const Vec2 to = point();

@@ -26,6 +26,7 @@ TEST(OutlinePath, areas_are_those_of_closed_forms) {
   EXPECT_NEAR(area_of_path("M 0 0 C 0 1 1 1 1 0 Z"), 0.6, 1e-3); // 3/20 of 2 · 2
   EXPECT_NEAR(area_of_path("M1,0 A1,1 0 0 1 -1,0 A1,1 0 0 1 1,0"), pi, 3e-3);
   EXPECT_NEAR(area_of_path("M0,0 a2,1 30 1 1 1e-6,0 Z"), 2 * pi, 8e-3); // an ellipse
+  EXPECT_NEAR(area_of_path("M-2,0 A2,1 0 0 1 2,0 Z"), pi, 3e-3); // half of an ellipse, the x radius first
   EXPECT_NEAR(area_of_path("M0,0 A1,1 0 0 1 1,1 L0,1Z"), pi / 4, 3e-3);
 }
 

@@ -46,30 +46,31 @@ TEST(SvgFile, transforms_multiply_areas_and_the_last_acts_first) {
   const std::string square = R"(<rect width="1" height="1")";
   EXPECT_NEAR(area_of_svg("<g transform=\"scale(2)\">" + square + " transform=\"scale(3 -1)\"/></g>"), 12,
               0.012);
-  EXPECT_NEAR(area_of_svg(square + R"( transform="matrix(1 2 3 1 7 7)"/>)"), 5, 0.01); // |1·1 − 2·3|
-  EXPECT_NEAR(area_of_svg(square + R"( transform="rotate(30) skewX(40) skewY(-20)"/>)"), 1, 3e-3);
-  EXPECT_NEAR(outline_of(square + R"( transform="skewX(45)"/>)").box().sizes().x(), 2, 1e-12);
-  EXPECT_NEAR(outline_of(square + R"( transform="skewY(45)"/>)").box().sizes().y(), 2, 1e-12);
+  EXPECT_NEAR(area_of_svg(square + R"( transform='matrix(1 2 3 1 7 7)'/>)"), 5, 0.01); // |1·1 − 2·3|
+  EXPECT_NEAR(area_of_svg(square + R"( transform='rotate(30) skewX(40) skewY(-20)'/>)"), 1, 3e-3);
+  EXPECT_NEAR(outline_of(square + R"( transform='skewX(45)'/>)").box().sizes().x(), 2, 1e-12);
+  EXPECT_NEAR(outline_of(square + R"( transform='skewY(45)'/>)").box().sizes().y(), 2, 1e-12);
   // y is turned over.
-  const auto box = outline_of(square + R"( transform="translate(5,1),scale(2)"/>)").box();
+  const auto box = outline_of(square + R"( transform='translate(5,1),scale(2)'/>)").box();
   EXPECT_LT((box.min() - Vec2(5, -3)).norm(), 1e-12);
   EXPECT_LT((box.max() - Vec2(7, -1)).norm(), 1e-12);
-  const auto other = outline_of(square + R"( transform="scale(2) translate(5 1)"/>)").box();
+  const auto other = outline_of(square + R"( transform='scale(2) translate(5 1)'/>)").box();
   EXPECT_LT((other.min() - Vec2(10, -4)).norm(), 1e-12);
   // About (1, 3): what is above comes to the right.
-  const auto turned = outline_of(square + R"( transform="rotate(90 1 3)"/>)").box();
+  const auto turned = outline_of(square + R"( transform='rotate(90 1 3)'/>)").box();
   EXPECT_LT((turned.min() - Vec2(3, -3)).norm(), 1e-12);
   EXPECT_LT((turned.max() - Vec2(4, -2)).norm(), 1e-12);
 }
 
 TEST(SvgFile, what_fills_nothing_is_passed_over) {
   const std::string square = R"(<rect width="1" height="1"/>)", large = R"(<rect width="9" height="9")";
-  for (const std::string& more : {large + R"( fill="none"/>)", large + R"( style="stroke:red; fill : none"/>)",
-                                  R"(<g display="none">)" + large + "/></g>", "<defs>" + large + "/></defs>",
-                                  "<clipPath><g>" + large + "/></g></clipPath>", "<title>a<x/></title>",
-                                  "<inkscape:grid " + large.substr(5) + "/>",
-                                  R"(<g fill="none">)" + large + "/><g>" + large + "/></g></g>",
-                                  std::string(R"(<path d=""/><circle r="0"/>)")})
+  for (const std::string& more :
+       {large + R"( fill="none"/>)", large + R"( style="stroke:red; fill : none"/>)",
+        R"(<g display="none">)" + large + "/></g>", "<defs>" + large + "/></defs>",
+        "<clipPath><g>" + large + "/></g></clipPath>", std::string("<title>a<x/></title>"),
+        "<inkscape:grid " + large.substr(5) + "/>",
+        R"(<g fill="none">)" + large + "/><g>" + large + "/></g></g>",
+        std::string(R"(<path d=""/><circle r="0"/>)")})
     EXPECT_NEAR(area_of_svg(square + more), 1, 1e-3) << more;
   EXPECT_NEAR(area_of_svg(R"(<g fill="none">)" + large + R"( style="fill:#123"/></g>)"), 81, 0.081);
   EXPECT_NEAR(outline_of_svg(MeshSource("d.svg", R"(<?xml version="1.0"?>
