@@ -108,7 +108,7 @@ thread_local TouchedDarts touched;
 // Why a change is not asked for at a candidate.
 constexpr const char* nothing_there =
     "there is no such cell beside it, or a change of the same step has taken it";
-constexpr const char* no_wall = "at walls between pieces it parts pieces alone, and parts none there";
+constexpr const char* no_wall = "at walls it parts pieces alone, and no wall is left to part there";
 
 } // namespace
 

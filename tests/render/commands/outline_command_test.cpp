@@ -56,7 +56,7 @@ TEST_F(OutlineCommand, what_is_wrong_with_a_drawing_is_told_with_its_place) {
   place.write("in/faulty.svg", "<svg>\n<path d='M 0 0 L x'/></svg>");
   const Outcome faulty = run(R"(file="faulty.svg")");
   EXPECT_EQ(faulty.code, 65);
-  EXPECT_THAT(faulty.err, HasSubstr("in/faulty.svg:2:17: <path>: command L of the path needs a number"));
+  EXPECT_THAT(faulty.err, HasSubstr("in/faulty.svg:2:18: <path>: command L of the path needs a number"));
   const Outcome none = run(R"(file="none.svg")");
   EXPECT_EQ(none.code, 66);
   EXPECT_THAT(none.err, HasSubstr("in/none.svg: there is no such file"));
