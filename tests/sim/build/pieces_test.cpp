@@ -1,10 +1,12 @@
 // Pieces: how many there are, of what size, how smooth their walls are, and how a body breaks into them.
 #include "sim/build/pieces.h"
+#include "sim/font/font.h"
 #include "sim/fracture/piece.h"
 #include "sim/mechanics/mass.h"
 #include "sim/presets.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
+#include "tests/test_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +45,9 @@ const std::vector<Shape>& shapes() {
 
 std::string scene(const Shape& shape, const std::string& pieces, const std::string& more = "",
                   double duration = 1) {
-  const std::string thickness = shape.xml.find("<sheet") == 0 ? R"( thickness="0.01")" : "";
+  const bool is_sheet = shape.xml.starts_with("<sheet") ||
+                        (shape.xml.starts_with("<outline") && shape.xml.find("depth") == std::string::npos);
+  const std::string thickness = is_sheet ? R"( thickness="0.01")" : "";
   return "<scene><body>" + shape.xml + pieces + R"(<mass density="1000")" + thickness +
          R"(/><elasticity model="corotational" young="1e6" poisson="0.25")" + thickness + "/>" + more +
          R"(</body><world gravity="0 0 0"/><time integrator="symplectic" step="auto" duration=")" +
@@ -109,6 +113,52 @@ TEST(Pieces, are_as_many_as_asked_for_connected_and_of_similar_size) {
       EXPECT_LE(most, 3.2 * least);
       EXPECT_EQ(fragments_apart(map), static_cast<std::size_t>(count));
     }
+}
+
+// Shapes with curved borders, holes, thin walls and sharp corners.
+std::vector<Shape> curved_shapes() {
+  std::vector<Shape> all;
+  for (const std::string name : {"heart", "star", "disc", "ring"})
+    all.push_back({name, R"(<outline shape=")" + name + R"(" size="1" cell="0.05" depth="0.15"/>)", 0, false});
+  if (has_font()) all.push_back({"a letter", R"(<outline text="R" size="1" cell="0.04"/>)", 0, false});
+  all.push_back({"a bar", R"(<bar pattern="tetrahedra" cells="24 4 4" size="2.4 0.4 0.4"/>)", 0});
+  all.push_back({"a tube",
+                 R"(<tube cells="16 12" size="0.4 0.4 0.8" wall="0.05"/><apply rule="split-into-tetrahedra"/>)",
+                 0, false});
+  all.push_back({"a sheet", R"(<sheet pattern="crossed" cells="30 20" size="1.5 1"/>)", 0});
+  all.push_back({"a bowl",
+                 R"(<mesh file=")" + std::string(test::source_root) + R"(/presets/showcase/meshes/bowl.msh"/>)",
+                 0, false});
+  return all;
+}
+
+double whole_of(const EmbeddedMap& map) {
+  double sum = 0;
+  for_each_element(map, [&](Slot, Dart d) { sum += size_of(map, d); });
+  return sum;
+}
+
+TEST(Pieces, of_curved_and_thin_shapes_are_as_many_as_asked_for_and_connected) {
+  for (const Shape& shape : curved_shapes()) {
+    const auto uncut = presets::load(scene(shape, ""));
+    const double whole = whole_of(*uncut.body().map);
+    for (const int count : {7, 20, 100}) {
+      SCOPED_TRACE(shape.name + " in " + std::to_string(count));
+      const auto loaded = presets::load(scene(shape, pieces(count)));
+      EmbeddedMap& map = *loaded.body().map;
+      EXPECT_EQ(validate(map), std::nullopt);
+      double least = 1e9, most = 0;
+      const auto sizes = sizes_of_pieces(map);
+      for (const auto& [piece, size] : sizes) {
+        least = std::min(least, size);
+        most = std::max(most, size);
+      }
+      EXPECT_EQ(sizes.size(), static_cast<std::size_t>(count));
+      EXPECT_NEAR(whole_of(map), whole, 0.01 * whole);
+      EXPECT_LE(most, 3.4 * least);
+      EXPECT_EQ(fragments_apart(map), static_cast<std::size_t>(count));
+    }
+  }
 }
 
 TEST(Pieces, of_every_pattern_are_as_many_as_asked_for) {
