@@ -27,8 +27,8 @@ bool lies_in(const std::filesystem::path& path, const std::filesystem::path& fol
 std::filesystem::path mesh_path(const Place& preset, const std::string& file);
 std::filesystem::path named_path(const PresetNode& node);
 
-// A file that an element of a scene names: a mesh, a drawing, a file of rules, or a picture of a look, a mass or
-// a law.
+// A file that an element of a scene names: a mesh, a drawing, a file of rules, or a picture of a look, a mass
+// or a law.
 struct FileOfPreset {
   const PresetNode* node = nullptr;
   std::string attribute;        // that names it
