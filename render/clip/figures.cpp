@@ -104,18 +104,31 @@ FragmentFigures fragments_of(const Scene& scene) {
   return out;
 }
 
-// Steps begin at multiples of the step.
-bool had_its_time(const Session& session, const LawSettings& law) {
-  const double step = session.scene().step_size(), slack = 1e-9 * step;
-  const double first = std::ceil((law.from - slack) / step) * step, last = session.scene().time() - step;
-  return first <= std::min(law.until, last) + slack;
-}
+// The steps of a law, from the first to the last; none if the last is before the first. They begin at multiples
+// of the step.
+struct StepsOfLaw {
+  double first, last;
+
+  StepsOfLaw(const Session& session, const LawSettings& law) {
+    const double step = session.scene().step_size(), slack = 1e-9;
+    first = std::ceil(law.from / step - slack);
+    last =
+        std::min(std::floor(law.until / step + slack), static_cast<double>(session.scene().steps_done() - 1));
+  }
+  bool any() const { return first <= last; }
+  // Whether values below the threshold were looked at in one of them.
+  bool sampled(long every) const {
+    return std::floor(last / static_cast<double>(every)) * static_cast<double>(every) >= first;
+  }
+};
 
 NeverTore why_never(const Session& session, const LawFigures& law, const LawSettings& settings) {
   if (law.tears > 0) return NeverTore::No;
   if (law.reached.value > law.threshold) return NeverTore::NotPossible;
   if (law.reached.value > 0) return NeverTore::Below;
-  return had_its_time(session, settings) ? NeverTore::NoValue : NeverTore::NotInTime;
+  const StepsOfLaw steps(session, settings);
+  if (!steps.any()) return NeverTore::NotInTime;
+  return steps.sampled(law.look_every) ? NeverTore::NoValue : NeverTore::Below;
 }
 
 std::vector<LawFigures> laws_of(const Session& session) {

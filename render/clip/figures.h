@@ -24,7 +24,7 @@ struct Costs {
   std::size_t surface_bytes = 0;
 };
 
-// Why a law has torn nothing. Its largest value counts in its time and where it looks alone.
+// Why a law has torn nothing. Its largest value is that within its time, of the cells that it selects.
 enum class NeverTore {
   No,          // it has torn something
   NotInTime,   // no step was in its time

@@ -292,7 +292,7 @@ std::function<Exit()> declare_batch(const CommandLine& app) {
       .show_default();
   app.add_option("--set", options->sets,
                  "replace an attribute in all jobs (can be repeated); several values separated by commas make "
-                 "one job each, unless the attribute is free text")
+                 "one job each, unless the attribute is free text or an expression")
       .type_name("PATH=VALUE")
       .allow_extra_args(false);
   app.add_option(

@@ -220,8 +220,8 @@ std::function<Exit()> declare_sheet(const CommandLine& app) {
   app.add_option(
          "--set", options->sets,
          "replace an attribute of each preset, such as time.step=1e-4 (can be repeated); several values "
-         "separated by commas make one row each, unless the attribute is free text; their middle pictures are "
-         "at one time, when the row that tears first has just torn")
+         "separated by commas make one row each, unless the attribute is free text or an expression; their "
+         "middle pictures are at one time, when the row that tears first has just torn")
       .type_name("PATH=VALUE")
       .allow_extra_args(false);
   app.add_option(

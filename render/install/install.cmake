@@ -25,7 +25,7 @@ configure_file(${install_source}/pages.cmake.in ${install_made}/pages.cmake @ONL
 install(SCRIPT ${install_made}/pages.cmake COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/rend/presets COMPONENT program
         FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd" PATTERN "*.msh" PATTERN "*.obj" PATTERN "*.off" PATTERN "*.moka"
-        PATTERN "*.svg"
+        PATTERN "*.svg" PATTERN "*.png"
         PATTERN gallery EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 foreach(folder presets sim render tests) # targets of its links

@@ -4,8 +4,8 @@
 //
 //   b = α (0.2126 R + 0.7152 G + 0.0722 B) + (1 − α)        R, G, B: 0 to 1, decoded
 //
-// so that black is 0, white and nothing 1, and a grey of the level 188 a half: as much light as where every
-// second pixel is white.
+// so that black is 0, white is 1 and what is wholly transparent as well; a grey of the level 188 is a half: as
+// much light as where every second pixel is white.
 #pragma once
 
 #include "sim/mechanics/mask.h"

@@ -7,6 +7,7 @@
 namespace rend {
 
 BodyAtRest body_at_rest(const Body& body, const BodySettings& settings, const ExpressionSettings& expression) {
+  if (!asks_for_picture_place(settings)) return {*body.map, body.groups};
   TextureFrame frame{settings.place, {}};
   if (const auto* sheet = std::get_if<SheetShape>(&settings.shape)) frame.sheet = *sheet;
   const double aspect = expression.mask ? expression.mask->aspect() : 1;

@@ -5,8 +5,8 @@
 
 namespace rend {
 
-// A body that has its shape, which lives as long as it. A picture lies on it as one of its look would
-// (picture_frame.h), in the proportions of that of the expression; without one as a square.
+// Of a body that has its map, and lives at least as long. The picture of the expression lies on it as
+// picture_frame.h says, in its proportions; u and v without a picture are those of a square one.
 BodyAtRest body_at_rest(const Body& body, const BodySettings& settings, const ExpressionSettings& expression);
 
 // Whether an expression of these settings asks where an element lies in a picture.

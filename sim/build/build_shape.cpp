@@ -37,6 +37,8 @@ double extent(const EmbeddedMap& map) {
 void check(const MassSettings& mass, bool sheet) {
   check_settings(mass);
   const SettingsSource& source = mass.source;
+  if (mass.density && !mass.density_by_place.empty())
+    source.fail("density", "<mass> has two densities, a number and an expression", "leave out one of them");
   if (mass.total.has_value() == mass.has_density())
     source.fail("", mass.total ? "<mass> has both total and density" : "<mass> needs total or density",
                 sheet ? "total=\"0.1\", or density=\"300\" with thickness=\"0.001\""

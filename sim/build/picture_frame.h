@@ -45,7 +45,7 @@ public:
   Chart chart(const Vec3& middle, const Vec3& normal) const;
   Eigen::Vector2d from_middle(const Vec3& rest, const Chart& chart) const; // of the picture [m]
 
-  TexturePlace place(const Vec3& rest) const; // that of an expression [m]
+  TexturePlace place(const Vec3& rest) const; // that of an expression, 0 to 1; rest [m]
 
   bool is_spread() const { return sheet_.has_value(); } // once over a sheet
   const Eigen::Vector2d& size() const { return size_; } // of the picture [m]

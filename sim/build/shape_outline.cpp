@@ -54,7 +54,7 @@ AskedOutline outline_of_letters(const OutlineShape& shape) {
   }
 }
 
-// Read once: which of them is given has been checked.
+// Of settings that name one of shape, path, file and text.
 AskedOutline outline_of(const OutlineShape& shape) {
   if (!shape.text.empty()) return outline_of_letters(shape);
   if (!shape.file.empty())
@@ -98,8 +98,8 @@ void check_parts(const OutlineShape& shape, const PolygonMesh& mesh, int asked) 
   if (asked == 0 || parts == asked) return;
   if (!shape.text.empty())
     shape.source.fail("cell",
-                      fmt::format("with cells of {:g} m, {} letter{} make {} part{}", shape.cell, asked,
-                                  asked == 1 ? "" : "s", parts, parts == 1 ? "" : "s"),
+                      fmt::format("with cells of {:g} m, {} {} {} part{}", shape.cell, asked,
+                                  asked == 1 ? "letter makes" : "letters make", parts, parts == 1 ? "" : "s"),
                       "take smaller cells: two or more across the thinnest part, and between letters");
   shape.source.fail(
       "file", fmt::format("the drawing falls into {} parts that are not connected", parts),
@@ -115,7 +115,8 @@ PolygonMesh triangles_of(const OutlineShape& shape, const AskedOutline& given) {
   const double asked = outline.area(), got = area_of(mesh);
   if (!(asked > 0))
     shape.source.fail(shape.file.empty() ? "path" : "file", "the outline encloses no area",
-                      "its points lie on a line");
+                      "its points lie on a line, or its parts cover each other: what lies in an even number of "
+                      "them is outside");
   if (!(std::abs(got - asked) <= most_lost * asked))
     shape.source.fail(
         "cell",

@@ -6,8 +6,8 @@
 // Elements are connected across borders (edges of a sheet, faces of a solid). From the elements whose links
 // the change has altered, the search goes from element to element until it has found that mass, and no
 // further: its time is bounded by the share, not by the size of the body. Elements that the step itself has
-// divided count nothing, since their parts have no masses before it ends: a part that is refused for that may
-// be torn off later.
+// divided count nothing, since their parts have no masses before it ends: a part that consists of such elements
+// and little else is refused, whatever its mass. So what a cut tears off has to be several elements wide.
 #pragma once
 
 #include "sim/fracture/criterion.h"

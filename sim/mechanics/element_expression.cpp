@@ -87,7 +87,9 @@ template <> const Fields<ExpressionSettings>& fields_of() {
             text("picture",
                  "a PNG or JPEG file, relative to the preset, and in its folder or below: its brightness is "
                  "`picture` in the expression, 0 where it is black, 1 where it is white or transparent, in "
-                 "linear light. It lies on the body as a texture of <look> does"))};
+                 "linear light. It lies on a sheet, or a mesh with texture coordinates, as a texture of <look> "
+                 "does; "
+                 "on other bodies it lies across the side along which they are thinnest"))};
   return fields;
 }
 

@@ -15,10 +15,11 @@ namespace {
 // A number, or an expression.
 Field<MassSettings> density_field() {
   const AttributeType type =
-      number_or_expression("density", "kg/m3",
-                           "density, instead of total; a sheet needs its thickness as well. It may differ from "
-                           "element to element: an expression of rest (the middle of the element [m]), u and v "
-                           "(its place in a picture, 0 to 1), picture, random, in(group), noise(...)")
+      number_or_expression(
+          "density", "kg/m3",
+          "density, instead of total; a sheet needs its thickness as well. It may differ from "
+          "element to element: an expression of rest (the middle of the element [m]), u and v "
+          "(its place in a picture, 0 to 1), picture, random, weibull(m), in(group), noise(...)")
           .above(0)
           .at_most(heaviest);
   return {type,

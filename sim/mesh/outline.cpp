@@ -133,7 +133,9 @@ Outline flattened(const std::vector<Curve>& curves) {
 }
 
 Outline outline_of_path(std::string_view path) {
-  Outline outline = flattened(curves_of_path(path));
+  const std::vector<Curve> curves = curves_of_path(path);
+  if (curves.empty()) throw PathFault(0, "the path encloses nothing");
+  Outline outline = flattened(curves);
   if (outline.rings.empty()) throw PathFault(0, "the path encloses nothing");
   return outline;
 }

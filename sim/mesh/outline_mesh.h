@@ -36,7 +36,7 @@ template <> const Fields<OutlineShape>& fields_of();
 // Of edges about as long as `cell` [m], in the plane z = 0. Empty: the outline is thinner than that everywhere.
 PolygonMesh triangles_within(const Outline& outline, double cell);
 
-// That are connected by edges.
+// The number of parts whose triangles are connected by edges.
 int parts_of(const PolygonMesh& triangles);
 
 // [m²]

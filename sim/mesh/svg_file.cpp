@@ -1,15 +1,13 @@
 #include "sim/mesh/svg_file.h"
 
+#include "sim/base/expat_reader.h"
 #include "sim/base/wording.h"
 #include "sim/mesh/svg_shapes.h"
 
-#include <expat.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <climits>
-#include <exception>
-#include <new>
 
 namespace rend {
 namespace {
@@ -20,29 +18,30 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::ranges::find(words, word) != words.end();
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(svg_blanks);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(svg_blanks) + 1 - first);
+}
+
 // "fill: none; stroke: red": the value of a property; empty: it is not there.
 std::string property_of(std::string_view style, std::string_view name) {
-  const auto trimmed = [](std::string_view text) {
-    const std::size_t first = text.find_first_not_of(svg_blanks);
-    return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(svg_blanks) + 1 - first);
-  };
   while (!style.empty()) {
     const std::string_view one = style.substr(0, style.find(';'));
     style.remove_prefix(std::min(style.size(), one.size() + 1));
     const std::size_t colon = one.find(':');
     if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == name)
-      return std::string(trimmed(one.substr(colon + 1)));
+      return std::string(trimmed(one.substr(colon + 1, one.find('!') - colon - 1)));
   }
   return {};
 }
 
-// Reads one file. Exceptions must not pass through expat, which is C: an error is kept until expat has
-// returned.
-class SvgReader {
+// Reads one file.
+class SvgReader : ExpatReader<SvgReader> {
+  friend ExpatReader<SvgReader>;
+
 public:
-  explicit SvgReader(const MeshSource& file) : file_(file), parser_(XML_ParserCreate(nullptr)) {
-    if (!parser_) throw std::bad_alloc();
+  explicit SvgReader(const MeshSource& file) : ExpatReader(nullptr), file_(file) {
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(
         parser_,
@@ -59,41 +58,21 @@ public:
       });
     });
   }
-  ~SvgReader() { XML_ParserFree(parser_); }
-  SvgReader(const SvgReader&) = delete;
-  SvgReader& operator=(const SvgReader&) = delete;
 
   std::vector<Curve> read() {
     const std::string_view text = file_.bytes();
     if (text.size() > INT_MAX) file_.fail("the drawing is too large");
-    const XML_Status status = XML_Parse(parser_, text.data(), static_cast<int>(text.size()), XML_TRUE);
-    if (failure_) std::rethrow_exception(failure_);
-    if (status != XML_STATUS_OK)
-      fail(fmt::format("this is not XML: {}", XML_ErrorString(XML_GetErrorCode(parser_))));
+    if (is_utf16(text)) fail("this is not UTF-8 text", "save the drawing in UTF-8 (this looks like UTF-16)");
+    if (!parse(text)) fail(fmt::format("this is not XML: {}", XML_ErrorString(XML_GetErrorCode(parser_))));
     return std::move(curves_);
   }
 
 private:
   struct Level {
     Eigen::Affine2d place = Eigen::Affine2d::Identity(); // of the drawing, y up
-    bool fills = true;
+    bool fills = true, shows = true;
     bool passed_over = false;
   };
-
-  template <class Handler> void guard(Handler handler) {
-    if (failure_) return; // expat may still report the end of an element after it was stopped
-    try {
-      handler(*this);
-    } catch (...) {
-      failure_ = std::current_exception();
-      XML_StopParser(parser_, XML_FALSE);
-    }
-  }
-
-  std::size_t here() const {
-    const XML_Index index = XML_GetCurrentByteIndex(parser_);
-    return index < 0 ? 0 : static_cast<std::size_t>(index);
-  }
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
     file_.fail(here(), what, hint);
@@ -131,9 +110,16 @@ private:
   void take_style(const SvgAttributes& given, Level& level) {
     const auto value_of = [&](std::string_view property) {
       const std::string styled = property_of(given.text("style"), property);
-      return styled.empty() ? std::string(given.text(property)) : styled;
+      return styled.empty() ? std::string(trimmed(given.text(property))) : styled;
     };
+    for (const char* cuts_away : {"clip-path", "mask"})
+      if (const std::string by = value_of(cuts_away); !by.empty() && by != "none")
+        fail(fmt::format("{} is not read", cuts_away), "cut the shapes themselves before the drawing is saved");
+    if (!property_of(given.text("style"), "transform").empty())
+      fail("a transform within style is not read", "write it as the attribute transform");
     if (value_of("display") == "none") level.passed_over = true;
+    if (const std::string shown = value_of("visibility"); !shown.empty() && shown != "inherit")
+      level.shows = shown == "visible";
     if (const std::string fill = value_of("fill"); !fill.empty() && fill != "inherit")
       level.fills = fill != "none";
   }
@@ -142,21 +128,29 @@ private:
   void enter(std::string_view name, const SvgAttributes& given, Level& level) {
     take_style(given, level);
     if (level.passed_over) return;
-    if (is_one_of(name, {"text", "image", "use", "svg"}))
+    if (is_one_of(name, {"text", "image", "use", "svg", "switch", "style"}))
       fail(fmt::format("<{}> within a drawing is not read", name),
            name == "text" ? "turn letters into paths before it is saved; or <outline text=\"...\"/> makes them"
-                          : "turn it into paths before the drawing is saved");
+           : name == "style" ? "save the drawing with its colours as attributes of the shapes (plain SVG)"
+                             : "turn it into paths before the drawing is saved");
     const bool shape = is_svg_shape(name);
-    level.passed_over = !shape && !is_one_of(name, {"g", "a", "switch"});
+    level.passed_over = !shape && !is_one_of(name, {"g", "a"});
     if (level.passed_over) return;
     std::string_view attribute = "transform";
     try {
       level.place = level.place * transform_of(given.text(attribute));
-      if (!shape || !level.fills) return;
+      if (!shape || !level.fills || !level.shows) return;
       for (const Curve& curve : curves_of_shape(name, given, attribute)) add(curve, level.place);
     } catch (const PathFault& fault) {
-      file_.fail(begin_of_value(attribute) + fault.at, fmt::format("<{}>: {}", name, fault.what()));
+      file_.fail(place_in_value(attribute, fault.at), fmt::format("<{}>: {}", name, fault.what()));
     }
+  }
+
+  // expat hands over values in which references and line ends are replaced: of those only the begin is known.
+  std::size_t place_in_value(std::string_view attribute, std::size_t at) const {
+    const std::size_t begin = begin_of_value(attribute);
+    const std::string_view before = file_.bytes().substr(begin, at);
+    return before.find_first_of("&\r") == std::string_view::npos ? begin + at : begin;
   }
 
   void add(const Curve& curve, const Eigen::Affine2d& place) {
@@ -172,9 +166,7 @@ private:
 
   const MeshSource& file_;
   std::vector<Level> levels_; // outermost first
-  std::vector<Curve> curves_;
-  std::exception_ptr failure_;
-  XML_Parser parser_;
+  std::vector<Curve> curves_; // in the units of the drawing, y up
 };
 
 } // namespace

@@ -21,7 +21,6 @@ public:
     if (in_.ended()) in_.fail("the path is empty");
     while (!in_.ended()) read_command();
     close();
-    if (curves_.empty()) throw PathFault(0, "the path encloses nothing");
     return std::move(curves_);
   }
 
@@ -168,7 +167,7 @@ private:
   }
 
   SvgText in_;
-  std::vector<Curve> curves_;
+  std::vector<Curve> curves_; // in the units and axes of the path
   Curve ring_;
   Vec2 here_ = Vec2::Zero(), begin_ = Vec2::Zero(), handle_ = Vec2::Zero();
   char command_ = 0, last_ = 0;

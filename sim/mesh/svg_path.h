@@ -42,6 +42,6 @@ private:
   std::size_t at_ = 0;
 };
 
-std::vector<Curve> curves_of_path(std::string_view path); // PathFault
+std::vector<Curve> curves_of_path(std::string_view path); // none: it encloses nothing. PathFault
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// Letters as an outline, of the font that is embedded (sim/font/font.h), in its bold weight.
+// Letters as an outline, of the font that is embedded (sim/font/font.h), in its weight SemiBold.
 #pragma once
 
 #include "sim/mesh/outline.h"

@@ -1,12 +1,11 @@
 #include "sim/preset/raw_preset.h"
 
 #include "sim/base/check.h"
+#include "sim/base/expat_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <climits>
-#include <exception>
-#include <expat.h>
 #include <fmt/format.h>
 #include <iterator>
 #include <span>
@@ -123,13 +122,13 @@ std::string_view name_at(std::string_view text, std::size_t byte) {
   return text.substr(0, std::min(text.find_first_of(" \t\r\n=/>\"'<&"), text.size()));
 }
 
-// Reads one file. Exceptions must not pass through expat, which is C: an error is kept in failure_ until expat
-// has returned.
-class Reader {
+// Reads one file.
+class Reader : ExpatReader<Reader> {
+  friend ExpatReader<Reader>;
+
 public:
   Reader(std::string_view text, const std::string& file, const ElementType& root)
-      : text_(text), root_type_(root), lines_(text, file), parser_(XML_ParserCreate("UTF-8")) {
-    if (!parser_) throw std::bad_alloc();
+      : ExpatReader("UTF-8"), text_(text), root_type_(root), lines_(text, file) {
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(
         parser_,
@@ -151,44 +150,21 @@ public:
       static_cast<Reader*>(self)->guard([&](Reader& reader) { reader.declaration(encoding); });
     });
   }
-  ~Reader() { XML_ParserFree(parser_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   std::unique_ptr<RawElement> read() {
     CHECK(text_.size() <= INT_MAX);
     refuse_utf16();
-    const XML_Status status = XML_Parse(parser_, text_.data(), static_cast<int>(text_.size()), XML_TRUE);
-    if (failure_) std::rethrow_exception(failure_);
-    if (status != XML_STATUS_OK) fail_as_xml();
+    if (!parse(text_)) fail_as_xml();
     return std::move(root_);
   }
 
 private:
-  template <class Handler> void guard(Handler handler) {
-    if (failure_) return; // expat may still report the end of an empty element after it was stopped
-    try {
-      handler(*this);
-    } catch (...) {
-      failure_ = std::current_exception();
-      XML_StopParser(parser_, XML_FALSE);
-    }
-  }
-
-  std::size_t here() const {
-    const XML_Index index = XML_GetCurrentByteIndex(parser_);
-    return index < 0 ? 0 : static_cast<std::size_t>(index);
-  }
-
   [[noreturn]] void fail(std::size_t byte, const std::string& what, const std::string& hint = {}) {
     throw UserError(Exit::BadInput, lines_.at(byte), what, hint);
   }
 
-  // expat detects UTF-16 by its first bytes, whatever encoding it is given; the raw text would then differ from
-  // what expat parses.
   void refuse_utf16() {
-    const bool marked = text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF");
-    if (marked || text_.substr(0, 2).find('\0') != std::string_view::npos)
+    if (is_utf16(text_))
       fail(0, "this is not UTF-8 text", "write the preset in UTF-8 (this looks like UTF-16)");
   }
 
@@ -332,8 +308,6 @@ private:
   Lines lines_;
   std::unique_ptr<RawElement> root_;
   std::vector<RawElement*> open_; // outermost first
-  std::exception_ptr failure_;
-  XML_Parser parser_;
 };
 
 } // namespace

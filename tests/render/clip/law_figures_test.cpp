@@ -1,6 +1,7 @@
 // What the figures of a run tell about laws and fragments, besides what is reached (reach_test.cpp).
 #include "tests/render/commands/program_run.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace rend::law_figures_test {
@@ -91,6 +92,25 @@ TEST_F(LawFigures, say_why_a_law_never_tears_where_it_is_not_exceeded) {
     <world gravity="0 0 0"/><time step="1e-3" duration="0.05"/></scene>)");
   EXPECT_EQ(place.rend("run still.xml -q --json").json()["laws"][0]["never"], "no value");
   EXPECT_THAT(place.rend("run still.xml -q").out, HasSubstr(": never; no value above 0\n"));
+}
+
+// Values below the threshold are looked at in some steps alone: of a law whose time has none of these, it is
+// not said that nothing was above 0.
+TEST_F(LawFigures, say_no_more_of_a_law_than_was_looked_at) {
+  const json whole = place.rend("run pulled.xml -q --json --set body.tear.threshold=1e9").json();
+  const double step = whole["step"], every = whole["laws"][0]["look_every"];
+  ASSERT_GT(every, 2);
+  const auto law_of_step = [&](double number) {
+    return place
+        .rend(fmt::format("run pulled.xml -q --json --set body.tear.threshold=1e9 --set body.tear.from={} "
+                          "--set body.tear.until={}",
+                          (number - 0.5) * step, (number + 0.5) * step))
+        .json()["laws"][0];
+  };
+  EXPECT_GT(law_of_step(2 * every)["reached"]["value"], 0);
+  const json between = law_of_step(2 * every + 1);
+  EXPECT_TRUE(between["reached"].is_null());
+  EXPECT_EQ(between["never"], "below threshold");
 }
 
 // Two halves of a sheet of four rows: the wall between them has an edge in each row and five vertices, all of

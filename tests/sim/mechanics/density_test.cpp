@@ -66,7 +66,18 @@ TEST(Density, of_a_picture_makes_its_dark_half_light) {
   // of a pixel from the edge of the pixels, where b is 1/4 and 3/4.
   const double expected = 0.5 * 0.01 * (4 * 100.0 + 4 * 400.0); // each column of cells has 0.5 m2
   EXPECT_NEAR(total_mass(*scene.body().map, *scene.body().mass), expected, 1e-9 * expected);
-  EXPECT_GT(middle_of_mass(scene.body()).x(), 2.4);
+  const EmbeddedMap& map = *scene.body().map;
+  const CellIndex& faces = map.cells(FaceOfVolume);
+  for (Slot f = 0; f < faces.slots(); ++f) {
+    const Dart d = faces.first_dart(f);
+    double x = 0, mass = 0;
+    for (Dart e : darts_of(map.map(), Face, d)) {
+      x += map.rest_of(e).x() / 8;
+      mass += 0.5 * (*scene.body().mass)[map.cells(VertexOfFace).slot(e)]; // two darts to a corner
+    }
+    const double b = std::clamp(2 * (x - 1.5) / 2, 0.0, 1.0); // between the middles of pixels at 1.5 and 2.5 m
+    EXPECT_NEAR(mass, 0.25 * 0.01 * (100 + 300 * b), 1e-12) << x;
+  }
 }
 
 // Two cells in a row, of 0.1 and 0.3 kg, on springs: three columns of vertices, of which the first is

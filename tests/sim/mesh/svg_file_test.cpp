@@ -2,6 +2,7 @@
 #include "sim/mesh/svg_file.h"
 
 #include "sim/base/math.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,6 +81,38 @@ TEST(SvgFile, what_fills_nothing_is_passed_over) {
               4, 4e-3);
 }
 
+TEST(SvgFile, subpaths_without_area_and_hidden_shapes_are_passed_over) {
+  const std::string square = R"(<rect width="1" height="1"/>)";
+  for (const char* more :
+       {R"(<path d="M0 0"/>)", R"(<path d="M5 5z"/>)", R"(<path d="M2 2 A 1 1 0 0 1 2 2"/>)",
+        R"(<rect width="9" height="9" visibility="hidden"/>)", R"(<rect width="9" height="9" fill=" none "/>)",
+        R"(<rect width="9" height="9" style="fill:none!important"/>)",
+        R"(<g visibility="hidden"><rect width="9" height="9"/></g>)"})
+    EXPECT_NEAR(area_of_svg(square + more), 1, 1e-3) << more;
+  const std::string shown = R"(<g visibility="hidden"><rect width="2" height="1" visibility="visible"/></g>)";
+  EXPECT_NEAR(area_of_svg(shown), 2, 2e-3);
+}
+
+TEST(SvgFile, what_would_change_the_shape_and_is_not_read_is_refused) {
+  const std::string rest = R"( width='5' height='1'/></svg>)";
+  EXPECT_THAT(fault_of("<svg><rect clip-path='url(#a)'" + rest), HasSubstr("clip-path is not read"));
+  EXPECT_THAT(fault_of("<svg><g style='mask: url(#a)'><rect" + rest), HasSubstr("mask is not read"));
+  EXPECT_THAT(fault_of("<svg><rect style='transform: scale(2)'" + rest), HasSubstr("transform within style"));
+  EXPECT_THAT(fault_of("<svg><style>.a{fill:none}</style><rect" + rest), HasSubstr("<style> within"));
+  EXPECT_THAT(fault_of("<svg><switch><rect" + rest), HasSubstr("<switch> within"));
+}
+
+// The bow, of radius 35, has a hole of radius 16; the shaft ends 150 from its middle.
+TEST(SvgFile, the_key_of_the_presets_has_a_hole) {
+  const std::filesystem::path file = std::filesystem::path(test::source_root) / "presets/meshes/key.svg";
+  const Outline key = outline_of_svg(MeshSource::open(file, "file"));
+  ASSERT_EQ(key.rings.size(), 2u);
+  Outline hole;
+  hole.rings = {key.rings[1]};
+  EXPECT_NEAR(std::abs(hole.area()), pi * 16 * 16, 1);
+  EXPECT_NEAR(key.box().max().x() - hole.box().center().x(), 150, 1e-6);
+}
+
 TEST(SvgFile, faults_tell_where) {
   EXPECT_THAT(fault_of("<svg>\n  <path id='d' d='M 0 0 L 1 x'/>\n</svg>"),
               HasSubstr("d.svg:2:29: <path>: command L"));
@@ -99,6 +132,10 @@ TEST(SvgFile, faults_tell_where) {
   EXPECT_THAT(fault_of("<svg><rect width='1e9' height='1' transform='scale(9)'/></svg>"),
               HasSubstr("larger than 1e9"));
   EXPECT_THAT(fault_of("<!DOCTYPE svg [<!ENTITY a 'b'>]><svg/>"), HasSubstr("entities"));
+  // Values that are not as they stand in the file: where they begin.
+  EXPECT_THAT(fault_of("<svg>\r\n<path d='M 0 0\r\n L 1 x'/></svg>"), HasSubstr("d.svg:2:10: <path>"));
+  EXPECT_THAT(fault_of("<svg><path d='M 0 0&#32;L 1 x'/></svg>"), HasSubstr("d.svg:1:15: <path>"));
+  EXPECT_THAT(fault_of(std::string("\xFF\xFE<\0s\0", 6)), HasSubstr("this is not UTF-8 text"));
 }
 
 } // namespace
